@@ -118,6 +118,12 @@ PlanStep CurrentPlan::next(std::size_t index) {
   return step;
 }
 
+CallMode CurrentPlan::mode(std::size_t index) const {
+  CallMode mode;
+  mode.then.assign(steps.begin() + static_cast<std::ptrdiff_t>(std::min(index + 1, steps.size())), steps.end());
+  return mode;
+}
+
 CallSettings CurrentPlan::set(std::size_t index) const {
   return given_ ? rollout_.task().steps->at(index).set : CallSettings{};
 }

@@ -28,6 +28,7 @@ class CurrentPlan {
 
   // Step `index` as it is called now; remembers what it should lead to.
   PlanStep next(std::size_t index);
+  CallMode mode(std::size_t index) const;     // as it is called: what comes after it
   CallSettings set(std::size_t index) const;  // what the task's own steps say beside it
   // After `done` steps: when something else happened than they declare and the rest no longer works, the rest is
   // planned again from here. `segment`: of the last of them, which says what it was that showed an assumption.

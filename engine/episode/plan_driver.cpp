@@ -6,7 +6,7 @@ namespace stampede {
 SkillResult follow_plan(Drive& drive) {
   for (std::size_t i = 0; i < drive.plan.size(); ++i) {
     drive.track.here();
-    SkillResult result = drive.track.run(drive.plan.next(i), i, drive.plan.set(i));
+    SkillResult result = drive.track.run(drive.plan.next(i), i, drive.plan.set(i), drive.plan.mode(i));
     if (result.ok()) result = drive.plan.watch(i + 1, result.segment);
     if (!result.ok()) return result;
   }

@@ -19,7 +19,7 @@ SkillResult follow_with_recovery(Drive& drive) {
     std::optional<PlanStep> failed;
     for (std::size_t i = 0; result.ok() && i < plan.size(); ++i, ++position) {
       drive.track.here();
-      result = drive.track.run(plan.next(i), position, plan.set(i));
+      result = drive.track.run(plan.next(i), position, plan.set(i), plan.mode(i));
       if (!result.ok()) failed = plan.steps[i];
       if (result.ok()) result = plan.watch(i + 1, result.segment);
     }

@@ -61,7 +61,7 @@ void Undo::restart() {
 
 SkillResult Undo::step() {
   if (i_ == plan_.size()) return track_.finish_goal(i_);
-  return track_.run(plan_.next(i_), i_, plan_.set(i_));
+  return track_.run(plan_.next(i_), i_, plan_.set(i_), plan_.mode(i_));
 }
 
 SkillResult Undo::run() {

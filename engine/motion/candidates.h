@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,7 @@ struct GraspQuery {
   const Object& object;
   JointVector start;
   RandomKey key;
+  std::function<bool(const GraspCandidate&)> wanted = {};  // others are skipped; empty: all
 };
 
 // Antipodal grasps of a part's shapes (parallel faces of boxes, diameters of round shapes, opposed facets of hulls)

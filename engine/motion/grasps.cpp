@@ -198,7 +198,8 @@ std::vector<GraspCandidate> grasp_candidates(const GraspQuery& query, int most, 
       GraspCandidate grasp = search.candidate(option, room);
       grasp.index = static_cast<int>(found.size());
       hand.set_opening(grasp.opening);
-      if (feasible(hand, grasp, query.start, query.key.with("ik"), follow)) found.push_back(grasp);
+      if (!feasible(hand, grasp, query.start, query.key.with("ik"), follow)) continue;
+      if (!query.wanted || query.wanted(grasp)) found.push_back(grasp);
     }
   }
   return found;

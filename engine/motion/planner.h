@@ -71,12 +71,19 @@ JointPath plan_path(const MotionProblem& problem, const JointVector& goal);
 Trajectory time_path(const Arm& arm, const std::vector<JointVector>& waypoints, const MotionLimits& limits,
                      int physics_hz);
 
+struct ToolPiece;
+
+// What the arm must be able to do from the last target on.
+struct ThenDo {
+  const PartWay* part = nullptr;                   // to go with this part, the hand `part->opening` wide
+  const std::vector<ToolPiece>* pieces = nullptr;  // to travel these
+};
+
 // A planned motion through all targets, stopping only at the last. Free motion up to the first target; between
 // targets straight tool lines (an approach to a grasp is a straight line). IK solutions are tried nearest first.
 // Lines ahead are to be free too, but for what an empty hand has taken by then, and for the part that a fist pushes.
-// `then`: from the last target, the arm must be able to go with this part, the hand `then->opening` wide.
 PlannedMotion plan_through(const MotionProblem& problem, const std::vector<ToolTarget>& targets,
-                           const PartWay* then = nullptr);
+                           const ThenDo& then = {});
 
 constexpr double kShut_m = 0.005;         // a hand that is no wider grasps nothing: it pushes
 constexpr double kRoomToLetGo_m = 0.007;  // a hand that fits where it is with so much more surely lets go

@@ -4,6 +4,8 @@
 
 #include "engine/base/error.h"
 #include "engine/motion/checker.h"
+#include "engine/motion/passable.h"
+#include "engine/motion/pieces.h"
 #include "engine/motion/route.h"
 
 namespace stampede {
@@ -72,18 +74,15 @@ CollisionState obstacles_ahead(const CollisionState& state, const PartWay* pushe
   return then;
 }
 
-// A straight line of the tool between two targets, its joints close together.
+// A way of the tool on which nothing is touched, its joints close together.
 struct Line {
   Reason reason = Reason::none;
   std::string detail;
   std::vector<JointVector> dense;  // the first: where it begins
 };
 
-Line straight_line(const MotionProblem& problem, const ToolTarget& from, const ToolTarget& to) {
-  const Transform here = from.world_from_tip, there = to.world_from_tip;
-  const ToolPath path =
-      follow_tool(problem.state.arm(), problem.start,
-                  {[&](double s) { return between(here, there, s); }, samples_between(here, there)}, problem.key);
+Line free_line(const MotionProblem& problem, const TipWay& way) {
+  const ToolPath path = follow_tool(problem.state.arm(), problem.start, way, problem.key);
   if (path.reason != Reason::none) return {path.reason, path.detail, {}};
   Line line{Reason::none, {}, {problem.start}};
   line.dense.insert(line.dense.end(), path.waypoints.begin(), path.waypoints.end());
@@ -93,8 +92,13 @@ Line straight_line(const MotionProblem& problem, const ToolTarget& from, const T
   return line;
 }
 
+Line straight_line(const MotionProblem& problem, const ToolTarget& from, const ToolTarget& to) {
+  const Transform here = from.world_from_tip, there = to.world_from_tip;
+  return free_line(problem, {[&](double s) { return between(here, there, s); }, samples_between(here, there)});
+}
+
 // `at_first`: with the arm at the first target.
-Tail make_tail(const MotionProblem& at_first, const std::vector<ToolTarget>& targets, const PartWay* then) {
+Tail make_tail(const MotionProblem& at_first, const std::vector<ToolTarget>& targets, const ThenDo& then) {
   const CollisionState& state = at_first.state;
   Tail tail;
   tail.waypoints = {at_first.start};
@@ -122,13 +126,23 @@ Tail make_tail(const MotionProblem& at_first, const std::vector<ToolTarget>& tar
   JointVector from = tail.waypoints.back();
   std::optional<CollisionState> then_free;
   for (; i < targets.size(); ++i) {
-    if (!then_free) then_free = obstacles_ahead(state, then);
+    if (!then_free) then_free = obstacles_ahead(state, then.part);
     const Line line = line_to(i, *then_free, from);
     if (line.reason != Reason::none) return refuse(line.reason, "on from " + targets[i - 1].name + ": " + line.detail);
     from = line.dense.back();
   }
-  if (then != nullptr && !way_with_part(state, from, *then, at_first.key.with("then"))) {
+  if (then.part != nullptr && !way_with_part(state, from, *then.part, at_first.key.with("then")))
     return refuse(Reason::unreachable, "from " + targets.back().name + " the arm cannot go with what it takes hold of");
+  for (std::size_t k = 0; then.pieces != nullptr && k < then.pieces->size(); ++k) {
+    const ToolPiece& piece = (*then.pieces)[k];
+    const PieceLength length = length_of(piece);
+    const int samples = std::max(1, static_cast<int>(std::ceil(std::max(length.way / 0.005, length.turn / 0.02))));
+    if (!then_free) then_free = obstacles_ahead(state, nullptr);
+    const RandomKey key = at_first.key.with("then").with(static_cast<std::int64_t>(k));
+    const Line line = free_line({*then_free, from, at_first.limits, key}, {piece.world_from_tip, samples});
+    if (line.reason != Reason::none)
+      return refuse(line.reason, "then, on piece " + std::to_string(k + 1) + ": " + line.detail);
+    from = line.dense.back();
   }
   return tail;
 }
@@ -162,7 +176,7 @@ PlannedMotion plan_to_tail(const MotionProblem& problem, const Tail& tail, const
 }
 
 PlannedMotion plan_through_from(const MotionProblem& problem, const std::vector<ToolTarget>& targets,
-                                const PartWay* then) {
+                                const ThenDo& then) {
   const auto& [state, start, limits, key] = problem;
   PlannedMotion motion;
   const JointPath ends = check_ends(state, start, start);
@@ -171,7 +185,8 @@ PlannedMotion plan_through_from(const MotionProblem& problem, const std::vector<
   if (motion.reason == Reason::start_in_collision) return motion;
   std::vector<JointVector> solutions =
       state.arm().solutions(targets[0].world_from_tip, start, key.with("ik"), kSolutions);
-  bool searched = then == nullptr;  // who has to go on with a part needs the right one: then more are looked for
+  // Who has to go on with a part or along a way needs the right one: then more are looked for.
+  bool searched = then.part == nullptr && then.pieces == nullptr;
   motion.reason = Reason::unreachable;
   motion.detail = "no joint configuration reaches " + targets[0].name;
   for (std::size_t i = 0;; ++i) {
@@ -235,7 +250,15 @@ ToolPath follow_tool(const Arm& arm, const JointVector& start, const TipWay& way
   return path;
 }
 
-PlannedMotion plan_through(const MotionProblem& problem, const std::vector<ToolTarget>& targets, const PartWay* then) {
+bool passable(const MotionProblem& problem, const std::vector<ToolTarget>& targets, const ThenDo& then) {
+  const auto& [state, start, limits, key] = problem;
+  const auto solutions = state.arm().solutions(targets.at(0).world_from_tip, start, key.with("ik"), kSolutions);
+  return std::ranges::any_of(solutions, [&](const JointVector& q) {
+    return make_tail({state, q, limits, key.with("tail")}, targets, then).reason == Reason::none;
+  });
+}
+
+PlannedMotion plan_through(const MotionProblem& problem, const std::vector<ToolTarget>& targets, const ThenDo& then) {
   if (targets.empty() || targets[0].ahead) throw Error("motion planning", "a motion needs at least one target");
   for (const ToolTarget& target : targets) check_pose(target.world_from_tip);
   return plan_after_way_out(problem, [&](const MotionProblem& from) { return plan_through_from(from, targets, then); });

@@ -55,10 +55,10 @@ struct Way {
 
 }  // namespace
 
-std::vector<ToolPiece> tool_pieces(const robot_call::Follow& call, const WorldView& view, const Transform& start) {
+std::vector<ToolPiece> tool_pieces(const std::vector<Piece>& asked, const WorldView& view, const Transform& start) {
   std::vector<ToolPiece> pieces;
   Transform from = start;
-  for (const Piece& piece : call.pieces) {
+  for (const Piece& piece : asked) {
     ToolPiece made;
     made.world_from_tip = std::visit(Way{view, from}, piece.way);
     made.speed = piece.speed;

@@ -1,4 +1,4 @@
-// robot_call::Follow as pieces of a way that the planner knows.
+// Pieces that a skill asks for as pieces of a way that the planner knows.
 #pragma once
 
 #include <vector>
@@ -9,6 +9,7 @@
 namespace stampede {
 
 // From where the tip is at `start`, one after the other. Throws Error for parts that the scene does not have.
-std::vector<ToolPiece> tool_pieces(const robot_call::Follow& call, const WorldView& view, const Transform& start);
+std::vector<ToolPiece> tool_pieces(const std::vector<robot_call::Piece>& asked, const WorldView& view,
+                                   const Transform& start);
 
 }  // namespace stampede

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/motion/passable.h"
 #include "engine/motion/stops.h"
 #include "engine/rollout/call_follow.h"
 #include "engine/sim/paces.h"
@@ -46,6 +47,10 @@ class CallPlanner {
         stop_(stop),
         start_(planning_start(world_, robot)),
         limits_(motion_limits(rollout)) {}
+
+  // ask(problem, targets, then)
+  template <typename Ask>
+  auto through(const robot_call::MoveThrough& call, const Ask& ask) const;
 
   PlannedCall operator()(const robot_call::MoveThrough& call) const;
   PlannedCall operator()(const robot_call::MoveLine& call) const;
@@ -102,16 +107,27 @@ PlannedCall CallPlanner::made(PlannedMotion planned, FollowOptions options) cons
   return {make_follow(std::move(planned.trajectory), std::move(options)), Reason::none, {}};
 }
 
-PlannedCall CallPlanner::operator()(const robot_call::MoveThrough& call) const {
-  FollowOptions follow = options(call.targets.size() > 1 ? "move_through" : "move_to");
+template <typename Ask>
+auto CallPlanner::through(const robot_call::MoveThrough& call, const Ask& ask) const {
   // A hand that is shut is not about to grasp anything.
   const bool shut = !rollout_.keep && world_.commanded_opening(robot_) < kShut_m;
   const auto space = planning_space(rollout_, shut ? std::vector<PartRef>{} : touchable_);
-  if (call.then_part.empty()) return made(plan_through(problem(*space), call.targets), std::move(follow));
-  PartWay then = way_of_part(rollout_.view(), call.then_part, call.position, call.pivot);
-  then.opening = call.opening;
-  then.retreat = call.retreat;
-  return made(plan_through(problem(*space), call.targets, &then), std::move(follow));
+  const std::vector<ToolPiece> pieces =
+      tool_pieces(call.then_follow, rollout_.view(), call.targets.back().world_from_tip);
+  ThenDo then;
+  if (!pieces.empty()) then.pieces = &pieces;
+  PartWay part;
+  if (!call.then_part.empty()) {
+    part = way_of_part(rollout_.view(), call.then_part, call.position, call.pivot);
+    part.opening = call.opening;
+    part.retreat = call.retreat;
+    then.part = &part;
+  }
+  return ask(problem(*space), call.targets, then);
+}
+
+PlannedCall CallPlanner::operator()(const robot_call::MoveThrough& call) const {
+  return made(through(call, plan_through), options(call.targets.size() > 1 ? "move_through" : "move_to"));
 }
 
 PlannedCall CallPlanner::operator()(const robot_call::MoveLine& call) const {
@@ -139,7 +155,7 @@ PlannedCall CallPlanner::operator()(const robot_call::Follow& call) const {
   FollowOptions follow = options("follow");
   follow.tolerate_error = call.tolerate || (call.press == 0 && call.most_force > 0);
   set_contact(rollout_, call.most_force, call.press, call.press_along, follow);
-  const auto pieces = tool_pieces(call, rollout_.view(), world_.arm(robot_).world_from_tip(start_));
+  const auto pieces = tool_pieces(call.pieces, rollout_.view(), world_.arm(robot_).world_from_tip(start_));
   return made(plan_pieces(problem(*space()), pieces, {call.blend, call.keep_clear}), std::move(follow));
 }
 
@@ -227,10 +243,10 @@ MotionLimits motion_limits(const Rollout& rollout) {
 std::unique_ptr<CollisionState> planning_space(Rollout& rollout, const std::vector<PartRef>& touchable) {
   World& world = rollout.world();
   auto space = std::make_unique<CollisionState>(world.collision_state());
-  space->set_opening(world.opening());
+  space->set_opening(rollout.view().opening());
   if (rollout.keep && rollout.keep->body >= 0 &&
       world.scene().bodies[static_cast<std::size_t>(rollout.keep->body)].free)
-    space->hold(rollout.keep->body, world.world_from_tip().inverse() * world.world_from_part(*rollout.keep));
+    space->hold(rollout.keep->body, rollout.view().world_from_tip().inverse() * world.world_from_part(*rollout.keep));
   for (const PartRef part : touchable) space->allow(part);
   allow_joined(world, rollout.keep, *space);
   for (const PartRef part : rollout.imagined_away) space->remove(part);
@@ -266,6 +282,11 @@ bool moves_fingers(const RobotCall& call) {
 PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key,
                       bool stop_at_vias) {
   return std::visit(CallPlanner(rollout, robot_of(call), touchable, key, stop_at_vias), call);
+}
+
+bool may_be_possible(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key) {
+  const auto* through = std::get_if<robot_call::MoveThrough>(&call);
+  return through == nullptr || CallPlanner(rollout, through->robot, touchable, key, false).through(*through, passable);
 }
 
 std::optional<RobotAnswer> answer_to(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable,

@@ -26,6 +26,9 @@ struct PlannedCall {
 PlannedCall plan_call(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key,
                       bool stop_at_vias = false);
 
+// Could a call be planned, wherever the arm comes from? Of MoveThrough alone; all others may. Repeatable.
+bool may_be_possible(Rollout& rollout, const RobotCall& call, const std::vector<PartRef>& touchable, RandomKey key);
+
 // Is it made on Cartesian impedance, whatever the skill's controller, or where that is stiff?
 enum class Yielding { no, where_stiff, always };
 Yielding yielding(const RobotCall& call);

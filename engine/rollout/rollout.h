@@ -63,6 +63,25 @@ class Rollout {
   // What planning takes to be elsewhere: to find out what is in the way.
   std::vector<PartRef> imagined_away;
 
+  // For a scope, the hand is taken to hold this: to find out whether what a plan does with it then is possible.
+  class Imagining {
+   public:
+    Imagining(Rollout& rollout, const WorldView::Held& held) : rollout_(rollout), kept_(rollout.keep) {
+      rollout_.keep = held.part;
+      rollout_.view_.imagine(held);
+    }
+    ~Imagining() {
+      rollout_.view_.imagine({});
+      rollout_.keep = kept_;
+    }
+    Imagining(const Imagining&) = delete;
+    Imagining& operator=(const Imagining&) = delete;
+
+   private:
+    Rollout& rollout_;
+    std::optional<PartRef> kept_;
+  };
+
   struct Checkpoint {
     Snapshot world;
     WorldView::History history;

@@ -23,10 +23,11 @@ struct SkillResult {
 
 // How a skill is called; the first two are for who draws skills instead of planning them.
 struct CallMode {
-  bool refuse = true;              // a false precondition ends the call; else it is noted and the skill runs
-  bool random_parameters = false;  // continuous parameters within their bounds, any of the grasps and placements
-  bool find_blockers = false;      // where nothing reaches: look what is in the way
-  bool explain = false;            // the same, and count the causes, for people
+  bool refuse = true;               // a false precondition ends the call; else it is noted and the skill runs
+  bool random_parameters = false;   // continuous parameters within their bounds, any of the grasps and placements
+  bool find_blockers = false;       // where nothing reaches: look what is in the way
+  bool explain = false;             // the same, and count the causes, for people
+  std::vector<PlanStep> then = {};  // what the plan does after it: grasps are chosen so that it stays possible
 };
 
 struct SkillRequest {

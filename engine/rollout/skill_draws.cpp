@@ -110,8 +110,8 @@ GraspCandidate wanted_grasp(const Rollout& rollout, const std::string& name, con
 // Draws for one call: what its streams have, and where somebody asks what was looked at.
 class StreamDraws {
  public:
-  StreamDraws(Rollout& rollout, Symbols& symbols, const SkillContext& context, Impasse* impasse)
-      : rollout_(rollout), symbols_(symbols), context_(context), impasse_(impasse) {}
+  StreamDraws(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const SkillContext& context, Impasse* impasse)
+      : rollout_(rollout), symbols_(symbols), skills_(skills), context_(context), impasse_(impasse) {}
   bool set(const ContinuousInfo& info, ContinuousValue& value) const;
   Reason grasp(const ContinuousInfo& info, ContinuousValue& value);
   Reason place(const ContinuousInfo& info, ContinuousValue& value);
@@ -124,12 +124,17 @@ class StreamDraws {
     std::vector<Looked> looked;
     int tried = 0;
   };
+  std::vector<GraspCandidate> candidates(GraspQuery query, int most, const std::optional<PartMove>& follow) const;
+  std::optional<SkillContext> next_place_of(const std::string& object) const;
+  bool finds_place(SkillContext next, const std::string& object, const GraspCandidate& grasp) const;
+  bool first_motion_possible(const SkillContext& next, std::vector<ContinuousValue> drawn) const;
   std::vector<Placement> ways(const ContinuousInfo& info, const Fact& fact, const CollisionState& space) const;
   Places look_at(const std::vector<Placement>& placements, const CollisionState& space) const;
   bool explains() const { return context_.mode.explain || impasse_ != nullptr; }
 
   Rollout& rollout_;
   Symbols& symbols_;
+  SkillLibrary& skills_;
   const SkillContext& context_;
   Impasse* impasse_;
   std::string detail_;
@@ -162,15 +167,68 @@ bool StreamDraws::set(const ContinuousInfo& info, ContinuousValue& value) const 
   return true;
 }
 
+// The plan's next step that draws where the object goes, as a call.
+std::optional<SkillContext> StreamDraws::next_place_of(const std::string& object) const {
+  for (const PlanStep& step : context_.mode.then) {
+    const Action* action = rollout_.domain().action(step.action);
+    const SkillInfo* info = action == nullptr ? nullptr : skills_.skill(action->skill);
+    if (info == nullptr || std::ranges::count(step.arguments, "") > 0) continue;  // what is left open is not known yet
+    SkillContext next{action, info, step.arguments, context_.key.with("next")};
+    const bool places = std::ranges::any_of(info->continuous, [&](const ContinuousInfo& one) {
+      return one.source == ContinuousInfo::Source::sample && argument(next, one.literal.arguments.front()) == object;
+    });
+    if (places) return next;
+  }
+  return std::nullopt;
+}
+
+bool StreamDraws::finds_place(SkillContext next, const std::string& object, const GraspCandidate& grasp) const {
+  constexpr int kPlacesTried = 4;
+  const Rollout::Imagining held(rollout_, {rollout_.view().part_of(object), grasp.world_from_tip, grasp.width});
+  for (next.attempt = 0; next.attempt < kPlacesTried; ++next.attempt) {
+    DrawnParameters drawn = draw_continuous(rollout_, symbols_, skills_, next);
+    if (drawn.reason != Reason::none) return false;
+    if (first_motion_possible(next, std::move(drawn.values))) return true;
+  }
+  return false;
+}
+
+// The first that the call would ask for; fingers may be asked to move before.
+bool StreamDraws::first_motion_possible(const SkillContext& next, std::vector<ContinuousValue> drawn) const {
+  constexpr int kMostCalls = 8;
+  const auto run =
+      skills_.start({next.info->name, next.action->case_name, next.arguments, std::move(drawn)}, rollout_.view());
+  for (int i = 0; i < kMostCalls; ++i) {
+    const RobotCall call = run->next(rollout_.view());
+    if (std::holds_alternative<robot_call::Hand>(call) || std::holds_alternative<robot_call::Wait>(call)) continue;
+    return may_be_possible(rollout_, call, touchable(rollout_, next), next.key.with("motion"));
+  }
+  return true;
+}
+
+std::vector<GraspCandidate> StreamDraws::candidates(GraspQuery query, int most,
+                                                    const std::optional<PartMove>& follow) const {
+  constexpr int kMostLookedAt = 16;
+  const std::string& object = query.object.name;
+  if (const std::optional<SkillContext> next = next_place_of(object)) {
+    int left = kMostLookedAt;
+    query.wanted = [&](const GraspCandidate& grasp) { return left-- > 0 && finds_place(*next, object, grasp); };
+    std::vector<GraspCandidate> found = grasps_to_go(query, most, follow);
+    if (!found.empty()) return found;
+    query.wanted = {};
+  }
+  return grasps_to_go(query, most, follow);
+}
+
 Reason StreamDraws::grasp(const ContinuousInfo& info, ContinuousValue& value) {
   const std::string name = argument(context_, info.object);
   const auto space = planning_space(rollout_, touchable(rollout_, context_));
   const int wanted = context_.attempt % kGraspCandidates;  // those behind it need not be looked for
   const GraspQuery query = grasp_query(rollout_.view(), *space, name, context_.key.with(info.name));
   const std::optional<PartMove> follow = part_move_to(rollout_.view(), name, info.to);
-  auto candidates = grasps_to_go(query, wanted + 1, follow);
-  if (candidates.empty() && follow) candidates = grasps_to_go(query, wanted + 1);  // perhaps it moves a little
-  if (candidates.empty()) {
+  std::vector<GraspCandidate> found = candidates(query, wanted + 1, follow);
+  if (found.empty() && follow) found = candidates(query, wanted + 1, {});  // perhaps it moves a little
+  if (found.empty()) {
     detail_ = "no grasp of " + name + " is reachable and free";
     if (explains()) {
       std::vector<Looked> looked = look_at_grasps(query, impasse_ != nullptr);
@@ -183,7 +241,7 @@ Reason StreamDraws::grasp(const ContinuousInfo& info, ContinuousValue& value) {
     impasse_->subject = name;
     impasse_->looked = look_at_grasps(query, false);
   }
-  const GraspCandidate& candidate = candidates[static_cast<std::size_t>(wanted) % candidates.size()];
+  const GraspCandidate& candidate = found[static_cast<std::size_t>(wanted) % found.size()];
   value.grasp = candidate;
   value.record.values = seven(candidate.object_from_tip);
   value.record.values.push_back(candidate.width);
@@ -226,7 +284,7 @@ StreamDraws::Places StreamDraws::look_at(const std::vector<Placement>& placement
     ++places.tried;
     if (space.held() && rollout_.view().part_of(placement.object).body == *space.held()) {
       const Transform object_from_tip =
-          rollout_.view().world_from(placement.object).inverse() * rollout_.world().world_from_tip();
+          rollout_.view().world_from(placement.object).inverse() * rollout_.view().world_from_tip();
       const PlaceTrial::Answer answer = trial.ask(*pose, object_from_tip);
       if (!answer.free) {
         if (!places.tight && answer.free_but_tight) places.tight = *pose;
@@ -295,8 +353,9 @@ std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& conte
   return parts;
 }
 
-DrawnParameters draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context, Impasse* impasse) {
-  StreamDraws draws(rollout, symbols, context, impasse);
+DrawnParameters draw_continuous(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const SkillContext& context,
+                                Impasse* impasse) {
+  StreamDraws draws(rollout, symbols, skills, context, impasse);
   DrawnParameters drawn;
   for (const ContinuousInfo& info : context.info->continuous) {
     ContinuousValue value;

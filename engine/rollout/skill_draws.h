@@ -17,8 +17,10 @@ struct DrawnParameters {
 };
 
 // What the context's settings say, else drawn. Repeatable: a pure function of the rollout's state and the context.
-// `impasse`: where somebody asks, the subject of a stream and what was looked at for it, in vain or not.
-DrawnParameters draw_continuous(Rollout& rollout, Symbols& symbols, const SkillContext& context,
+// Of grasps, those are skipped with which the plan's next step that puts the thing somewhere finds no place to which
+// its first motion could go, unless it finds none with any. `impasse`: where somebody asks, the subject of a stream and
+// what was looked at for it, in vain or not.
+DrawnParameters draw_continuous(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const SkillContext& context,
                                 Impasse* impasse = nullptr);
 
 // What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.

@@ -118,13 +118,13 @@ void SkillExecution::start(SkillContext context, int parent) {
   }
   SkillCall call = undrawn_call();
   Impasse impasse;
-  DrawnParameters drawn = draw_continuous(rollout_, symbols_, context_, options_.witness ? &impasse : nullptr);
+  DrawnParameters drawn = draw_continuous(rollout_, symbols_, skills_, context_, options_.witness ? &impasse : nullptr);
   call.continuous = std::move(drawn.values);
   note_parameters(call);
   if (drawn.reason != Reason::none) {
     SkillResult failed{drawn.reason, drawn.detail};
     name_blockers(rollout_, context_, failed,
-                  [&] { return draw_continuous(rollout_, symbols_, context_).reason == Reason::none; });
+                  [&] { return draw_continuous(rollout_, symbols_, skills_, context_).reason == Reason::none; });
     impasse.state = state_of(rollout_.view());
     if (options_.witness) tell(std::move(impasse), failed);
     finish(std::move(failed));
@@ -180,7 +180,7 @@ bool SkillExecution::draw_again() {
   if (arm_moved_ || redraws_ + 1 >= kPlaceCandidates || std::ranges::none_of(call_.continuous, streamed)) return false;
   if (redraws_++ == 0) first_drawn_ = call_.continuous;
   ++context_.attempt;
-  DrawnParameters drawn = draw_continuous(rollout_, symbols_, context_);
+  DrawnParameters drawn = draw_continuous(rollout_, symbols_, skills_, context_);
   if (drawn.reason != Reason::none) return false;
   SkillCall call = undrawn_call();
   call.continuous = std::move(drawn.values);

@@ -200,31 +200,7 @@ struct AskedCall {
 
 // What a skill asks of a robot of the scene, one at a time. Frames: poses are of the tip in the world.
 namespace robot_call {
-struct MoveThrough {
-  std::vector<ToolTarget> targets;
-  int robot = 0;
-  // From the last target the arm must be able to take this part to `position`, its hand as wide as `opening`, m.
-  std::string then_part = {};
-  double position = 0, pivot = 0, opening = 0, retreat = 0;
-};  // planned; stops at the last only
-struct MoveLine {
-  Transform target;
-  double speed = 0.25;  // m/s
-  bool stop_on_contact = false;
-  double force = 3;                // N, that stops it
-  bool tolerate = false;           // falling short is no failure
-  bool keep_clear = false;         // refused where anything is touched but the skill's own objects
-  bool as_far_as_it_goes = false;  // where the arm cannot follow to the end: at least half of it
-  double most_force = 0;           // N: the arm gives way, and stops where contact asks for more; 0: it does not
-  double press = 0;                // as of Follow
-  Vector3 press_along = Vector3::Zero();
-  double search = 0;             // m around the line in which it looks for a way on where contact of `force` stops it
-  double search_pitch = 0.0008;  // m from one turn of the spiral to the next
-  std::optional<double> opening = {};  // m, to which the hand begins to open or close as the line begins
-  std::string kind = "move_line";
-  int robot = 0;
-};
-// Ways that Follow travels. Poses and points are of the world, but for what a Tilt says.
+// Ways that a Follow travels. Poses and points are of the world, but for what a Tilt says.
 namespace piece {
 struct Offset {
   Vector3 by = Vector3::Zero();  // straight, from where the piece begins
@@ -255,6 +231,31 @@ struct Piece {
   bool stop = false;                      // rests at its end; the last one does
   std::string name = {};                  // of the via at its end; empty: none
   std::optional<double> opening = {};     // m, to which the hand begins to open or close as the piece begins
+};
+struct MoveThrough {
+  std::vector<ToolTarget> targets;
+  int robot = 0;
+  // From the last target the arm must be able to take this part to `position`, its hand as wide as `opening`, m.
+  std::string then_part = {};
+  double position = 0, pivot = 0, opening = 0, retreat = 0;
+  std::vector<Piece> then_follow = {};  // or to travel these, with nothing touched but the skill's own objects
+};                                      // planned; stops at the last only
+struct MoveLine {
+  Transform target;
+  double speed = 0.25;  // m/s
+  bool stop_on_contact = false;
+  double force = 3;                // N, that stops it
+  bool tolerate = false;           // falling short is no failure
+  bool keep_clear = false;         // refused where anything is touched but the skill's own objects
+  bool as_far_as_it_goes = false;  // where the arm cannot follow to the end: at least half of it
+  double most_force = 0;           // N: the arm gives way, and stops where contact asks for more; 0: it does not
+  double press = 0;                // as of Follow
+  Vector3 press_along = Vector3::Zero();
+  double search = 0;             // m around the line in which it looks for a way on where contact of `force` stops it
+  double search_pitch = 0.0008;  // m from one turn of the spiral to the next
+  std::optional<double> opening = {};  // m, to which the hand begins to open or close as the line begins
+  std::string kind = "move_line";
+  int robot = 0;
 };
 struct Follow {
   std::vector<Piece> pieces;

@@ -127,7 +127,7 @@ Transform WorldView::world_from(const Object& thing) const {
     case ObjectKind::part:
       return world_->world_from_part({body_of(thing), thing.part});
     case ObjectKind::hand:
-      return world_->world_from_tip();
+      return world_from_tip();
     case ObjectKind::region:
       break;
   }
@@ -281,24 +281,30 @@ bool WorldView::at_rest(std::string_view name) const {
          angle_between(Quaternion(now.linear()), Quaternion(then.linear())) < kRestAngle;
 }
 
+std::optional<PartRef> WorldView::held() const { return imagined_ ? imagined_->part : world_->grasped(); }
+
+Transform WorldView::world_from_tip() const { return imagined_ ? imagined_->world_from_tip : world_->world_from_tip(); }
+
+double WorldView::opening() const { return imagined_ ? imagined_->opening : world_->opening(); }
+
 bool WorldView::holds(const Object& thing) const {
-  const auto held = world_->grasped();
-  return held && owns(thing, *held);
+  const std::optional<PartRef> part = held();
+  return part && owns(thing, *part);
 }
 
 WorldView::Judged WorldView::grasped(std::string_view name) const {
   const Object& thing = object(name);
   const bool held = holds(thing);
-  const double depth = -box_distance(name, world_->world_from_tip().translation());
+  const double depth = -box_distance(name, world_from_tip().translation());
   return {held, held ? std::max(0.0, depth) : std::min(0.0, depth)};
 }
 
 std::string WorldView::grasped_object() const {
-  const auto held = world_->grasped();
-  if (!held) return {};
+  const std::optional<PartRef> part = held();
+  if (!part) return {};
   std::string whole;
   for (const Object& thing : scene().objects) {
-    if (!owns(thing, *held)) continue;
+    if (!owns(thing, *part)) continue;
     if (thing.kind == ObjectKind::part) return thing.name;  // the part is more exact than its body
     whole = thing.name;
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -58,6 +59,18 @@ class WorldView {
   // grasped().
   Judged carried(std::string_view object) const;
   std::string grasped_object() const;  // or empty
+
+  // What the hand holds, and from where: as it is, or as it is imagined. Then `grasped`, the hand's pose and what draws
+  // read of the hand are of that moment, and all else of the world as it is.
+  struct Held {
+    PartRef part;
+    Transform world_from_tip;
+    double opening = 0;  // m
+  };
+  void imagine(std::optional<Held> held) { imagined_ = held; }
+  std::optional<PartRef> held() const;
+  Transform world_from_tip() const;
+  double opening() const;  // m
   // Is the centre (or with `whole` the bounding box) of `object` inside the region?
   bool inside(std::string_view region, std::string_view object, bool whole = false) const;
   // Signed distance of a point to the region's box, negative inside, m.
@@ -90,6 +103,7 @@ class WorldView {
 
   World* world_;
   const FactTracker* facts_ = nullptr;
+  std::optional<Held> imagined_;
   std::map<std::string, int, std::less<>> index_;  // object name -> index in scene().objects
   std::vector<int> bodies_;                        // of each of them, the index of its body; -1: none
   struct Box {

@@ -509,9 +509,10 @@ function stampede_robot_view:close_hand(object, options) end
 -- { { "name", pose }, … } in the order written. All but the last are passed without a stop.
 -- `ahead`: poses after the last to which the arm must be able to go on. `then_part`: a part that it must be able to take
 -- from there to joint position `to`, see move_part, with the hand as wide as `opening`
--- [m], and to go straight back from there by `retreat` [m]. `tool`: a tool in the hand whose tip the poses are of
+-- [m], and to go straight back from there by `retreat` [m]. `then_follow`: or pieces that it must be able to travel from
+-- there, see follow, with nothing touched but the skill's own objects. `tool`: a tool in the hand whose tip the poses are of
 ---@param targets table<string, stampede.pose>|any[][]
----@param options? { then_part: string?, to: number?, pivot: number?, opening: number?, retreat: number?, tool: string? }
+---@param options? { then_part: string?, to: number?, pivot: number?, opening: number?, retreat: number?, then_follow: stampede.piece[]?, tool: string? }
 function stampede_robot_view:move_through(targets, options) end
 ---@param target stampede.pose
 ---@param options? { tool: string }

@@ -127,7 +127,7 @@ class PieceReader {
     tilt.point = centre.point;
     tilt.in_world = centre.kind == About::Kind::pose || centre.kind == About::Kind::thing;
     if (centre.kind == About::Kind::thing && carried(centre.thing)) {
-      tilt.point = view_.world().world_from_tip().inverse() * centre.point;
+      tilt.point = view_.world_from_tip().inverse() * centre.point;
       tilt.in_world = false;
     }
     piece.way = tilt;
@@ -162,25 +162,32 @@ robot_call::Follow read_options(lua_State* state, Piece& all) {
 
 }  // namespace
 
-robot_call::Follow follow_at(lua_State* state, const WorldView& view) {
-  luaL_checktype(state, 2, LUA_TTABLE);
-  only_fields(state, 3,
-              {"speed", "turn_speed", "blend", "most_force", "press", "press_along", "keep_clear", "tolerate"});
-  Piece all;
-  robot_call::Follow call = read_options(state, all);
-  const auto count = static_cast<lua_Integer>(lua_rawlen(state, 2));
-  luaL_argcheck(state, count > 0, 2, "expected a list of pieces: { { to = pose }, { by = { x, y, z } }, … }");
+std::vector<Piece> pieces_at(lua_State* state, int index, const WorldView& view, const Piece& all) {
+  luaL_checktype(state, index, LUA_TTABLE);
+  std::vector<Piece> pieces;
+  const auto count = static_cast<lua_Integer>(lua_rawlen(state, index));
+  luaL_argcheck(state, count > 0, index, "expected a list of pieces: { { to = pose }, { by = { x, y, z } }, … }");
   for (lua_Integer i = 1; i <= count; ++i) {
-    lua_rawgeti(state, 2, i);
+    lua_rawgeti(state, index, i);
     const int at = lua_gettop(state);
     const std::string place = "piece " + std::to_string(i);
     if (!lua_istable(state, at)) throw Error(place, "expected a table such as { by = { 0, 0, 0.1 } }");
     only_fields(state, at,
                 {"to", "by", "arc", "tilt", "axis", "about", "turn", "speed", "turn_speed", "stop", "name", "open"},
                 place, "field");
-    call.pieces.push_back(PieceReader(state, view, place).read(at, all));
+    pieces.push_back(PieceReader(state, view, place).read(at, all));
     lua_settop(state, at - 1);
   }
+  return pieces;
+}
+
+robot_call::Follow follow_at(lua_State* state, const WorldView& view) {
+  luaL_checktype(state, 2, LUA_TTABLE);
+  only_fields(state, 3,
+              {"speed", "turn_speed", "blend", "most_force", "press", "press_along", "keep_clear", "tolerate"});
+  Piece all;
+  robot_call::Follow call = read_options(state, all);
+  call.pieces = pieces_at(state, 2, view, all);
   return call;
 }
 

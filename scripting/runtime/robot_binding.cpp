@@ -114,12 +114,17 @@ int move_through(lua_State* state) {
   listed ? listed_targets(state, call.targets) : named_targets(state, call.targets);
   for (ToolTarget& target : call.targets) target.ahead = target.name == "ahead";
   luaL_argcheck(state, !call.targets.empty() && !call.targets[0].ahead, 2, "expected at least one named pose");
-  only_fields(state, 3, {"then_part", "to", "pivot", "opening", "retreat", "tool"});
+  only_fields(state, 3, {"then_part", "to", "pivot", "opening", "retreat", "then_follow", "tool"});
   const Transform from_tool = hand_seen_from_tool(state, 3);
   for (ToolTarget& target : call.targets) target.world_from_tip = target.world_from_tip * from_tool;
   if (lua_istable(state, 3) && lua_getfield(state, 3, "then_part") == LUA_TNIL) {
     lua_pop(state, 1);
-    only_fields(state, 3, {"tool"});  // the others belong to a part
+    only_fields(state, 3, {"then_follow", "tool"});  // the others belong to a part
+    if (has_field(state, 3, "then_follow")) {
+      lua_getfield(state, 3, "then_follow");
+      call.then_follow = pieces_at(state, lua_gettop(state), view_of(state));
+      lua_pop(state, 1);
+    }
   } else if (lua_istable(state, 3)) {
     const std::string_view part = check_text(state, -1);
     view_of(state).joint_range(part);
@@ -129,6 +134,7 @@ int move_through(lua_State* state) {
     call.pivot = number_field(state, 3, "pivot", 0);
     call.opening = number_field(state, 3, "opening", 0);
     call.retreat = number_field(state, 3, "retreat", 0);
+    luaL_argcheck(state, !has_field(state, 3, "then_follow"), 3, "expected then_part or then_follow, not both");
   }
   return ask(state, std::move(call));
 }

@@ -161,7 +161,7 @@ int grasped_object(lua_State* state) {
 }
 
 int opening(lua_State* state) {
-  lua_pushnumber(state, view_of(state).world().opening());
+  lua_pushnumber(state, view_of(state).opening());
   return 1;
 }
 

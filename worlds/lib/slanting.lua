@@ -12,15 +12,29 @@ local function one(yaw, x, z, width, force, side, down)
 end
 
 -- Fingers on both sides of a box { length, width, height } whose frame is at its middle: near an upper edge of the two
--- ends, so that the palm, 37 mm behind the tip, stays clear of the box.
-function slanting.box(size, force)
+-- ends, so that the palm, 37 mm behind the tip, stays clear of the box; or at height `z`.
+function slanting.box(size, force, z)
   local grasps = {}
-  local x, z = -size[1] / 2 + math.min(0.024, size[1] / 2), size[3] / 2 - math.min(0.018, size[3] * 0.45)
+  local x = -size[1] / 2 + math.min(0.024, size[1] / 2)
+  z = z or size[3] / 2 - math.min(0.018, size[3] * 0.45)
   for _, yaw in ipairs { 0, math.pi } do
     for _, down in ipairs { 30, 38, 46 } do
       for _, side in ipairs { 1, -1 } do grasps[#grasps + 1] = one(yaw, x, z, size[2], force, side, math.rad(down)) end
     end
   end
+  return grasps
+end
+
+-- The same of what lies flat, the fingers just clear of what it lies on; and first from straight above, across its middle:
+-- into a drawer no slanting hand reaches.
+function slanting.flat(size, force)
+  local grasps, clear = {}, 0.0187 -- m
+  for _, x in ipairs { 0, -0.02, 0.02 } do
+    for _, yaw in ipairs { 0, math.pi } do
+      grasps[#grasps + 1] = { at = { x, 0, 0 }, rpy = { math.pi, 0, yaw }, width = size[2], force = force }
+    end
+  end
+  for _, one_of_them in ipairs(slanting.box(size, force, clear - size[3] / 2)) do grasps[#grasps + 1] = one_of_them end
   return grasps
 end
 

@@ -12,5 +12,5 @@ return object {
     cylinder { 0.012, 0.0012, at = { 0.045, 0, size[3] / 2 }, colour = { 0.25, 0.42, 0.28 }, collides = false },
     cylinder { 0.012, 0.0012, at = { -0.045, 0, size[3] / 2 }, colour = { 0.25, 0.42, 0.28 }, collides = false },
   },
-  grasps = slanting.box(size, 40),
+  grasps = slanting.flat(size, 40),
 }

@@ -20,7 +20,7 @@ local function door(side)
     slider = { axis = { 0, side, 0 }, at = { -depth / 2 - 0.002, side * width / 4, height / 2 }, range = { 0, 0.29 },
       friction = 2, damping = 5 },
     grasps = doors.grasps(bar_x, bar_y, 0, 0.012),
-    numbers = { open_at = 0.24, closed_at = 0.004, pull = 0.27 },
+    numbers = { open_at = 0.24, closed_at = 0.004, pull = 0.27, gripped = 1 }, -- nothing to push against: its bar is taken
   }
 end
 

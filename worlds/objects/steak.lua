@@ -1,4 +1,6 @@
 -- A sirloin steak, 2.4 cm thick, with a rim of fat along one side.
+local slanting = require "worlds.lib.slanting"
+
 local function slab(outline, colour) -- two levels: the edges are a little rounded
   local points = {}
   for _, p in ipairs(outline) do
@@ -10,8 +12,6 @@ local function slab(outline, colour) -- two levels: the edges are a little round
   return hull(points)
 end
 
-local function from_above(x, yaw) return { at = { x, 0, 0 }, rpy = { math.pi, 0, yaw }, width = 0.062 } end
-
 return object {
   type = "meat", traits = { "movable", "graspable" }, mass = 0.22,
   nouns = "beef",
@@ -22,8 +22,5 @@ return object {
     box { 0.006, 0.044, 0.001, at = { 0.0, -0.003, 0.0121 }, yaw = deg(-25), colour = { 0.22, 0.06, 0.04 }, collides = false },
     box { 0.006, 0.044, 0.001, at = { 0.03, -0.003, 0.0121 }, yaw = deg(-25), colour = { 0.22, 0.06, 0.04 }, collides = false },
   },
-  grasps = {
-    from_above(0, 0), from_above(0, math.pi), from_above(-0.02, 0), from_above(-0.02, math.pi), from_above(0.02, 0),
-    from_above(0.02, math.pi),
-  },
+  grasps = slanting.flat({ 0.124, 0.062, 0.024 }, 20),
 }

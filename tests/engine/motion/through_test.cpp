@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "engine/motion/pieces.h"
 #include "tests/engine/motion/cluttered.h"
 
 using namespace stampede;
@@ -8,6 +9,22 @@ namespace {
 
 double turn_between(const Transform& a, const Transform& b) {
   return angle_between(Quaternion(a.linear()), Quaternion(b.linear()));
+}
+
+// A post on the table, to the left of its middle.
+std::shared_ptr<const Scene> scene_with_post() {
+  Scene scene = table_scene(0);
+  Shape post;
+  post.size = Vector3(0.04, 0.04, 0.2);
+  Part part;
+  part.name = "post";
+  part.shapes = {post};
+  Body body;
+  body.name = "post";
+  body.parts = {part};
+  body.world_from_body = translation(0.5, 0.2, 0.1);
+  scene.bodies.insert(scene.bodies.begin(), body);
+  return std::make_shared<const Scene>(std::move(scene));
 }
 
 }  // namespace
@@ -128,18 +145,7 @@ TEST_CASE("targets out of reach and lines into the table say so") {
 }
 
 TEST_CASE("lines ahead are to be free: nothing is grasped that cannot be taken away") {
-  Scene scene = table_scene(0);
-  Shape post;
-  post.size = Vector3(0.04, 0.04, 0.2);
-  Part part;
-  part.name = "post";
-  part.shapes = {post};
-  Body body;
-  body.name = "post";
-  body.parts = {part};
-  body.world_from_body = translation(0.5, 0.2, 0.1);
-  scene.bodies.insert(scene.bodies.begin(), body);
-  const World world(std::make_shared<const Scene>(scene));
+  const World world(scene_with_post());
   const CollisionState state = world.collision_state();
   const auto plan = [&](double aside) {
     return plan_through({state, state.arm().home(), {}, RandomKey("l")},
@@ -149,4 +155,30 @@ TEST_CASE("lines ahead are to be free: nothing is grasped that cannot be taken a
   const PlannedMotion into_post = plan(0.18);
   CHECK(into_post.reason == Reason::no_path);
   CHECK_THAT(into_post.detail, Catch::StartsWith("on from grasp: ") && Catch::Contains(" touches post"));
+}
+
+TEST_CASE("what follows is to be free and in reach: before the arm moves, it is known that it can go on") {
+  const World world(scene_with_post());
+  const CollisionState state = world.collision_state();
+  const Transform grasp = above(0.5, 0, 0.1);
+  const auto plan = [&](const std::function<Transform(double)>& way) {
+    std::vector<ToolPiece> pieces(2);
+    pieces[0].world_from_tip = [&](double share) { return way(0.1 * share); };
+    pieces[1].world_from_tip = [&](double share) { return way(0.1 + 0.9 * share); };
+    return plan_through({state, state.arm().home(), {}, RandomKey("then")}, {{"goal", grasp}}, {.pieces = &pieces});
+  };
+  const auto arc = [&](double angle) {  // about an upright line between arm and target
+    return [angle](double share) {
+      const Vector3 about(0.3, 0, 0);
+      return Transform(translation(about) * rotation_rpy(0, 0, share * angle) * translation(-about) *
+                       above(0.5, 0, 0.1));
+    };
+  };
+  CHECK(plan(arc(-1.0)).reason == Reason::none);
+  const PlannedMotion into_post = plan([](double share) { return above(0.5, 0.18 * share, 0.1); });
+  CHECK(into_post.reason == Reason::no_path);
+  CHECK_THAT(into_post.detail, Catch::StartsWith("then, on piece 2: ") && Catch::Contains(" touches post"));
+  const PlannedMotion beyond = plan([](double share) { return above(0.5 + share, 0, 0.1); });
+  CHECK(beyond.reason == Reason::unreachable);
+  CHECK_THAT(beyond.detail, Catch::StartsWith("then, on piece 2: the arm cannot follow beyond "));
 }

@@ -23,7 +23,7 @@ struct Ways {
   std::vector<ToolPiece> operator()(std::vector<Piece> pieces) const {
     Follow call;
     call.pieces = std::move(pieces);
-    return tool_pieces(call, view, kStart);
+    return tool_pieces(call.pieces, view, kStart);
   }
   Transform end(std::vector<Piece> pieces) const { return (*this)(std::move(pieces)).back().world_from_tip(1); }
 };

@@ -15,8 +15,9 @@ namespace {
 const PlanStep kPick{"pick", {"cube1", "table", "panda.hand"}};
 
 // A running episode whose loop is the test's.
-struct Running {
-  explicit Running(double horizon_s = 60) {
+template <typename Words = plain::PlainSymbols>
+struct RunningWith {
+  explicit RunningWith(double horizon_s = 60) {
     const TaskDraw draw = [horizon_s](int) {
       Task task = plain::stack_task(2);
       task.horizon_s = horizon_s;
@@ -42,12 +43,32 @@ struct Running {
     return *std::find_if(all.begin(), all.end(), [&](const ParameterRecord& one) { return one.name == name; });
   }
 
-  plain::PlainSymbols symbols;
+  Words symbols;
   plain::PlainSkills skills;
   RunOptions options;
   PreparedStart start;
   std::optional<Rollout> rollout;
   std::optional<SkillExecution> execution;
+};
+using Running = RunningWith<>;
+
+// How much the fingers close along x of the cube, 0 … 1.
+double along_cube(const Transform& object_from_tip) { return std::abs(object_from_tip.linear().col(1).x()); }
+
+// Knows a place on cube2 for what the hand holds along one side only.
+struct OneSidePlaces : plain::PlainSymbols {
+  std::vector<Placement> sample(const Fact& fact, const WorldView& view, const CollisionState& state, RandomKey key,
+                                int most) override {
+    const bool placing = fact == Fact{"on", {"cube1", "cube2"}};
+    if (placing && view.grasped("cube1").holds) {
+      const double along = along_cube(view.world_from("cube1").inverse() * view.world_from("panda.hand"));
+      REQUIRE(state.held() == view.part_of("cube1").body);
+      REQUIRE(state.opening() == view.opening());
+      if ((along > 0.5) != wants_along) return {};
+    }
+    return PlainSymbols::sample(fact, view, state, key, most);
+  }
+  bool wants_along = true;
 };
 
 // All that begin() could have touched.
@@ -330,4 +351,25 @@ TEST_CASE("a hand can grasp what is within its reach") {
   World& world = running.rollout->world();
   world.apply(operation::Place{world.scene().body_index("cube1"), translation(2, 0, 0.1)});
   CHECK_FALSE(can_grasp(running.rollout->view(), "cube1"));
+}
+
+TEST_CASE("a grasp is chosen with which the plan's next step finds a place; where none does, any is taken") {
+  for (const bool wants_along : {true, false}) {
+    RunningWith<OneSidePlaces> running;
+    running.symbols.wants_along = wants_along;
+    SkillRequest request = running.request(kPick);
+    request.mode.then = {{"pick", {"cube2", "table", "panda.hand"}}, {"place", {"cube1", "cube2", "panda.hand"}}};
+    REQUIRE_FALSE(running.execution->begin(request));
+    CHECK(running.rollout->view().grasped_object().empty());  // it was imagined for the draw alone
+    CHECK_FALSE(running.rollout->keep);
+    REQUIRE(run_to_end(*running.execution, *running.rollout).ok());
+    const std::vector<double>& grasp = running.parameter("grasp").values;
+    const Quaternion turn(grasp[6], grasp[3], grasp[4], grasp[5]);
+    CHECK((std::abs((turn * Vector3::UnitY()).x()) > 0.5) == wants_along);
+  }
+  RunningWith<OneSidePlaces> running;
+  SkillRequest request = running.request(kPick);
+  request.mode.then = {{"place", {"cube1", "", "panda.hand"}}};  // left open: nobody knows yet
+  REQUIRE_FALSE(running.execution->begin(request));
+  CHECK(run_to_end(*running.execution, *running.rollout).ok());
 }

@@ -85,7 +85,12 @@ TEST_CASE("each robot method yields its call, one at a time") {
   CHECK(keyed[0].name == "approach");  // first, whatever the table's own order
   CHECK(keyed[0].world_from_tip.translation() == Vector3(1, 2, 4));
   CHECK(keyed[1].name == "grasp");
-  const auto listed = next<robot_call::MoveThrough>(*run, view).targets;
+  const auto listed_call = next<robot_call::MoveThrough>(*run, view);
+  const auto& then = listed_call.then_follow;
+  REQUIRE(then.size() == 2);
+  CHECK(std::get<robot_call::piece::Offset>(then[0].way).by == Vector3(0, 0, 0.1));
+  CHECK((std::get<robot_call::piece::Tilt>(then[1].way).angle == 2.0 && then[1].turn_speed == 0.5));
+  const auto& listed = listed_call.targets;
   REQUIRE(listed.size() == 2);
   CHECK(listed[0].name == "second");
   CHECK(listed[1].name == "first");
@@ -171,7 +176,7 @@ TEST_CASE("what goes wrong in run is a failed call with a place, not an exceptio
                                                  {3, "finite"},
                                                  {4, "no option 'sped' here, there are: "},
                                                  {6, "not told its 'obj'"},
-                                                 {5, "wrong.lua:27"},
+                                                 {5, "wrong.lua:29"},
                                                  {7, "expected a list of pieces"},
                                                  {8, "piece 2: no field 'up' here, there are: to by arc"},
                                                  {9, "piece 2: by must be three numbers"},
@@ -187,7 +192,9 @@ TEST_CASE("what goes wrong in run is a failed call with a place, not an exceptio
                                                  {19, "piece 1: 'cube' has no joint"},
                                                  {20, "search goes neither with press nor with stop_on_contact"},
                                                  {21, "cube: has no tip to move"},
-                                                 {22, "top: is not in the hand, so its tip cannot be moved"}};
+                                                 {22, "top: is not in the hand, so its tip cannot be moved"},
+                                                 {23, "piece 2: no field 'up' here, there are: to by arc"},
+                                                 {24, "expected then_part or then_follow, not both"}};
   for (const auto& [way, expected] : ways) {
     const auto run = small.scripts.skills().start(wrong(way), small.view);
     next<robot_call::Wait>(*run, small.view);

@@ -13,7 +13,8 @@ return skill {
     robot:open_hand()
     robot:open_hand(0.02)
     robot:move_through { grasp = c.grasp.pose, approach = c.grasp.approach }
-    robot:move_through { { "second", c.grasp.pose }, { "first", c.grasp.approach } }
+    robot:move_through({ { "second", c.grasp.pose }, { "first", c.grasp.approach } },
+      { then_follow = { { by = { 0, 0, 0.1 } }, { tilt = 2, turn_speed = 0.5 } } })
     robot:close_hand(p.obj, { force = c.grasp.force })
     robot:lift(c.height)
     robot:move_line({ 0.1, 0, 0 }, { speed = 0.05, stop_on_contact = true, force = 7, tolerate = true })

@@ -4,7 +4,7 @@ return skill {
   params = { "obj: movable" },
   precondition = {},
   effect = { is.higher("obj", "obj") },
-  continuous = { way = { 0, min = 0, max = 22 } },
+  continuous = { way = { 0, min = 0, max = 24 } },
   label = "go wrong",
   run = function(robot, p, c)
     robot:wait(0.1)
@@ -15,6 +15,8 @@ return skill {
     if c.way == 4 then robot:move_line({ 0, 0, 0.1 }, { sped = 1 }) end
     if c.way == 21 then robot:move_to(robot:tip(), { tool = p.obj }) end
     if c.way == 22 then robot:move_line(robot:tip(), { tool = "top" }) end
+    if c.way == 23 then robot:move_through({ goal = robot:tip() }, { then_follow = { { by = { 0, 0, 1 } }, { up = 1 } } }) end
+    if c.way == 24 then robot:move_through({ goal = robot:tip() }, { then_part = "chest.drawer", then_follow = { { by = { 0, 0, 1 } } } }) end
     local pieces = {
       [7] = {}, [8] = { { by = { 0, 0, 1 } }, { up = 1 } }, [9] = { { by = { 0, 0, 1 } }, { by = { 0, 0 } } },
       [10] = { { arc = 1, about = "chest.drawer" } }, [11] = { { arc = 1, axis = { 0, 0, 0 }, about = { 0, 0, 0 } } },

@@ -1,0 +1,13 @@
+-- The bottle goes into the fridge, which is shut and is shut again.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  objects = {
+    fridge = { "fridge", place = places.left_or_behind { gap = 0.13, turn = deg(16), lean = -0.16 } },
+    bottle = { "water_bottle" },
+  },
+  init = { is.closed("fridge.door"), is.workable("fridge.door"), is.on("bottle", "table"), is_not.inside("bottle", "fridge.front") },
+  goal = { is.inside("bottle", "fridge.shelf"), is.closed("fridge.door") },
+  instructions = { "put the bottle into the fridge and shut it" },
+}

@@ -1,0 +1,19 @@
+-- Something goes into the oven, which is shut and is shut again.
+local places = require "worlds.lib.places"
+
+return task {
+  world = "tabletop",
+  variations = { thing = { "baking_tray", "steak", "money", "soup_can" } },
+  objects = function(v)
+    return {
+      oven = { "oven", place = places.round_the_table { gap = 0.14, turn = deg(45), wide = 0.38 } },
+      item = { v.thing },
+    }
+  end,
+  init = {
+    is.closed("oven.door"), is.workable("oven.door"), is.on("item", "table"), is.outside("item", "oven.front"),
+    is.reachable_behind("item", "oven.door"),
+  },
+  goal = { is.inside("item", "oven.shelf"), is.closed("oven.door") },
+  instructions = { "put the {thing} into the oven and shut it" },
+}
