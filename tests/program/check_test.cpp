@@ -229,13 +229,15 @@ TEST_CASE("only what a task uses must be right: a broken file beside it is told,
   beside("worlds/objects/mug.lua", "-- In the place of everybody's.\nreturn object { type = \"mgu\" }\n");
   beside("worlds/objects/own.lua", "-- Mine.\nreturn object {\n");
   beside("worlds/lib/own.lua", "return {\n");
-  beside("tasks/picture.lua", "\xff\xfe no text");
   const Folder mine;
   put_task(mine, "take");
+  put(mine, "tasks/picture.lua", "\xff\xfe no text");
   std::filesystem::create_symlink(kRoot + std::string("/README.md"), mine / "tasks/linked.lua");
   CHECK(check(mine, {"take"}).code == kDone);
   CHECK(run_one(mine, "take").code == kDone);
-  CHECK(says(check(mine).out, "tasks/linked.lua: a link that leads out of its root"));
+  const Said both = check(mine);
+  CHECK(says(both.out, "tasks/linked.lua: a link that leads out of its root"));
+  CHECK(says(both.out, "tasks/picture.lua:1: the byte 0xFF here is no UTF-8 text"));
 }
 
 TEST_CASE(

@@ -20,7 +20,7 @@ TEST_CASE("each of nine mistakes is found with its line and its cure, one compla
       {"grasp_it", "skills/grasp_it.lua:8: robot has no method 'grasp'\n", ""},
       {"look_at_it", "skills/look_at_it.lua:9: pos.x: 'position' gives its numbers one by one, and no table\n",
        "local x, y, z = …:position(…)"},
-      {"lift_high", "skills/lift_high.lua:10: run: c.height is nothing that the skill declares in continuous\n", ""},
+      {"lift_high", "skills/lift_high.lua:9: run: c.height is nothing that the skill declares in continuous\n", ""},
       {"take_and_forget",
        "skills/take_and_forget.lua:6: effect: it takes something into the hand, and does not say that this is no "
        "longer empty\n",

@@ -510,14 +510,14 @@ TEST_CASE("a generous mapping gives a task that passes the check, or a refusal w
 
 TEST_CASE("no plan: what nobody can see and is not assumed, and why; a task says what else cannot be seen in it") {
   const Folder mine;
-  put(mine / "worlds/predicates/marked.lua",
-      "-- Marked below.\nreturn predicate {\n  params = { \"obj: movable\" },\n  label = \"the {obj} is marked\",\n"
+  put(mine / "worlds/predicates/stamped.lua",
+      "-- Stamped below.\nreturn predicate {\n  params = { \"obj: movable\" },\n  label = \"the {obj} is stamped\",\n"
       "  observable = false,\n  holds = function(w, obj) return true end,\n}\n");
   put(mine / "worlds/predicates/named.lua",
       "-- Named.\nreturn predicate {\n  params = { \"obj: movable\" },\n  label = \"the {obj} is named\",\n"
       "  holds = function(w, obj) return false end,\n}\n");
   put(mine / "skills/name_it.lua",
-      "-- Name it.\nreturn skill {\n  params = { \"obj: movable\" },\n  precondition = { is.marked(\"obj\") },\n"
+      "-- Name it.\nreturn skill {\n  params = { \"obj: movable\" },\n  precondition = { is.stamped(\"obj\") },\n"
       "  effect = { is.named(\"obj\") },\n  label = \"name the {obj}\",\n  run = function(robot, p, c) end,\n}\n");
   const auto plan = [&](const std::string& more) {
     put(mine / "tasks/name_one.lua",
@@ -529,14 +529,14 @@ TEST_CASE("no plan: what nobody can see and is not assumed, and why; a task says
   const Said none = plan("");
   INFO(none.out << none.err);
   CHECK(none.code == kNo);
-  CHECK(says(none.err, "`name_it` needs (marked tin)"));
+  CHECK(says(none.err, "`name_it` needs (stamped tin)"));
   CHECK(says(none.err,
-             "; nobody can see whether (marked tin), but it is not assumed, for (on tin table) is known of "
+             "; nobody can see whether (stamped tin), but it is not assumed, for (on tin table) is known of "
              "'tin': where nobody can see that either, the task says so in `observable`"));
   const Said found = plan("  observable = { on = false },\n");
   INFO(found.out << found.err);
   CHECK(found.code == kDone);
-  CHECK(found.out == "(name_it tin panda.hand)\n; assumes (marked tin), which nobody can see at the start\n");
+  CHECK(found.out == "(name_it tin panda.hand)\n; assumes (stamped tin), which nobody can see at the start\n");
   CHECK(plan("  observable = { on = function(w, obj) return w:time() > 100 end },\n").out == found.out);
   CHECK(plan("  observable = { on = function(w, obj) return obj == \"tin\" end },\n").out.empty());
 }
