@@ -111,8 +111,9 @@ TEST_CASE("a mesh becomes a hull, found beside the URDF") {
                                      "<collision><geometry><mesh filename='package://any/tetra.obj' scale='2 2 2'/>"
                                      "</geometry></collision>"))))
           .body;
-  REQUIRE(body.parts[0].shapes.size() == 1);
+  REQUIRE(body.parts[0].shapes.size() == 2);  // as it collides, and as it is drawn
   CHECK(body.parts[0].shapes[0].kind == ShapeKind::hull);
+  CHECK(body.parts[0].shapes[1].kind == ShapeKind::mesh);
   CHECK(bounding_box(body.parts[0])[1] == Vector3(2, 2, 2));
 }
 
