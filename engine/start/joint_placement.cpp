@@ -9,14 +9,16 @@ namespace stampede {
 namespace {
 
 constexpr int kMore = 60;           // ways asked of a literal where the first do not do
-constexpr int kMostSlow = 24;       // places in which the arm is asked in vain
+constexpr int kMostAsked = 24;      // places of which the arm is asked in vain
+constexpr int kMostInVain = 96;     // the same, of all searches: from then on one each
 constexpr double kGap_m = 0.001;    // above what it is put down on
 constexpr double kRests_m = 0.005;  // how far above it may be for it to come to rest on it
 
 class JointSearch {
  public:
-  JointSearch(const PlacementAsked& asked, Symbols& symbols, std::set<std::string>& slow)
-      : asked_(asked), symbols_(symbols), slow_(slow) {
+  JointSearch(const PlacementAsked& asked, Symbols& symbols, ArmQuestions& questions)
+      : asked_(asked), symbols_(symbols), questions_(questions) {
+    left_ = questions.in_vain < kMostInVain ? kMostAsked : 1;
     for (const Literal& literal : asked.literals) {
       const PredicateTraits traits = symbols.traits(literal.fact.predicate);
       const bool about = !literal.fact.arguments.empty() && literal.fact.arguments.front() == asked.object;
@@ -28,7 +30,7 @@ class JointSearch {
       if (within) within_.push_back(literal);
       if (traits.requires_pairs == Pairs::touching && literal.fact.arguments.size() == 2) resting_.push_back(literal);
     }
-    put_slow_last();
+    put_arm_last();
     std::ranges::stable_partition(proposing_, [&](const Literal& literal) { return !rests(literal); });
   }
 
@@ -78,27 +80,31 @@ class JointSearch {
     });
   }
 
-  void put_slow_last() {
-    std::ranges::stable_partition(tests_,
-                                  [&](const Test& test) { return !slow_.contains(test.literal.fact.predicate); });
+  void put_arm_last() {
+    std::ranges::stable_partition(
+        tests_, [&](const Test& test) { return !questions_.predicates.contains(test.literal.fact.predicate); });
   }
 
   bool meets_at(const Placement& way) {
-    if (in_vain_ >= kMostSlow) return false;
+    if (left_ <= 0) return false;
     asked_.put(way);
-    const std::size_t known = slow_.size();
+    const std::size_t known = questions_.predicates.size();
     const bool meets = std::ranges::all_of(tests_, [&](Test& test) { return meets_at(way, test); });
-    if (slow_.size() > known) put_slow_last();
+    if (questions_.predicates.size() > known) put_arm_last();
     return meets;
   }
 
   bool meets_at(const Placement& way, Test& test) {
     const Symbols::Value value = symbols_.value(test.literal.fact, asked_.view());
-    if (value.asked_arm) slow_.insert(test.literal.fact.predicate);
-    if (value.holds != test.literal.negated) return true;
+    const bool meets = value.holds != test.literal.negated;
+    if (value.asked_arm) {
+      questions_.predicates.insert(test.literal.fact.predicate);
+      questions_.in_vain = meets ? 0 : questions_.in_vain + 1;
+      left_ -= meets ? 0 : 1;
+    }
+    if (meets) return true;
     ++test.failed;
     test.at = way;
-    in_vain_ += value.asked_arm ? 1 : 0;
     return false;
   }
 
@@ -119,11 +125,11 @@ class JointSearch {
 
   const PlacementAsked& asked_;
   Symbols& symbols_;
-  std::set<std::string>& slow_;
+  ArmQuestions& questions_;
   std::vector<Test> tests_;
   std::vector<Literal> proposing_, within_, resting_;
   std::optional<Placement> hovering_;  // meets all, but comes to rest somewhere only once it falls
-  int in_vain_ = 0;
+  int left_ = 0;                       // places of which the arm may still be asked in vain
 };
 
 }  // namespace
@@ -136,8 +142,8 @@ bool comes_to_rest_on(const WorldView& view, const std::string& thing, const std
 }
 
 JointPlacement joint_placement(const PlacementAsked& asked, const Literal& first, const std::vector<Placement>& ways,
-                               Symbols& symbols, RandomKey key, std::set<std::string>& slow) {
-  JointSearch joint(asked, symbols, slow);
+                               Symbols& symbols, RandomKey key, ArmQuestions& questions) {
+  JointSearch joint(asked, symbols, questions);
   if (!joint.anything_to_test()) return {};
   if (auto found = joint.first_of(ways, first)) return {found, {}, {}};
   if (auto found = joint.propose(key.with("joint"))) return {found, {}, {}};

@@ -29,12 +29,18 @@ struct JointPlacement {
   std::optional<Placement> at;   // the last place that met all that was tested before this
 };
 
+// Conditions that ask what the arm can do, which takes long.
+struct ArmQuestions {
+  std::set<std::string> predicates;  // as they are seen to
+  int in_vain = 0;                   // places of which they were asked in vain since they last held
+};
+
 // The first of `ways`, which were sampled for `first`, of more ways that its literals propose, those of small places
 // before those of what it only rests on, and of places inside one thing put down on another. The order of literals does
-// not matter to whether there is one. Each place is asked what is quick first: predicates in `slow`, which ask what the
-// arm can do and are added there as they are seen to, come last, and only so often.
+// not matter to whether there is one. Of each place the arm is asked last, and only so often: where that was in vain
+// all along, once.
 JointPlacement joint_placement(const PlacementAsked& asked, const Literal& first, const std::vector<Placement>& ways,
-                               Symbols& symbols, RandomKey key, std::set<std::string>& slow);
+                               Symbols& symbols, RandomKey key, ArmQuestions& questions);
 
 // Does its foot come to the top of the other one, its middle above it?
 bool comes_to_rest_on(const WorldView& view, const std::string& thing, const std::string& below);

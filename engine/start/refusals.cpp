@@ -9,7 +9,7 @@
 namespace stampede {
 namespace {
 
-constexpr std::size_t kMostScenes = 40, kMostLooked = 1000;  // that are looked at again; that are shown
+constexpr std::size_t kMostScenes = 24, kMostLooked = 1000;  // that are looked at again; that are shown
 
 std::string in_mm(double metres) { return std::to_string(std::max(1L, std::lround(1000 * metres))) + " mm"; }
 

@@ -365,7 +365,7 @@ class StartMaker {
       asked.literals.push_back(one);
       if (start_only(one.fact.predicate)) asked.conditions.insert(one.fact.predicate);
     }
-    JointPlacement joint = joint_placement(asked, literal, ways, symbols_, key, slow_);
+    JointPlacement joint = joint_placement(asked, literal, ways, symbols_, key, questions_);
     if (joint.way)
       for (const Literal& one : asked.literals) met_at_[text_of(one)] = moment_;
     return joint;
@@ -455,11 +455,11 @@ class StartMaker {
     for (const bool slow : {false, true})
       for (const Literal& literal : literals_) {
         const std::string& predicate = literal.fact.predicate;
-        if (!start_only(predicate) || slow_.contains(predicate) != slow) continue;
+        if (!start_only(predicate) || questions_.predicates.contains(predicate) != slow) continue;
         if (const auto met = met_at_.find(text_of(literal)); met != met_at_.end() && met->second == moment_) continue;
         const Symbols::Value value = symbols_.value(literal.fact, view);
         if (value.holds == literal.negated) return literal;
-        if (value.asked_arm && !slow) slow_.insert(predicate), met_at_[text_of(literal)] = moment_;
+        if (value.asked_arm && !slow) questions_.predicates.insert(predicate), met_at_[text_of(literal)] = moment_;
       }
     return std::nullopt;
   }
@@ -508,9 +508,9 @@ class StartMaker {
   std::vector<Literal> literals_;      // of this draw: what is to be made true, and tested
   std::vector<std::string> replaced_;  // things with a place of their own, which `where` gives another
   std::optional<Formula> where_;
-  std::vector<Step> steps_;            // of this draw
-  std::optional<Blocked> blocked_;     // this draw, once all is placed
-  std::set<std::string> slow_;         // predicates that ask what the arm can do
+  std::vector<Step> steps_;         // of this draw
+  std::optional<Blocked> blocked_;  // this draw, once all is placed
+  ArmQuestions questions_;
   int moment_ = 0;                     // other than before whenever something was moved
   std::map<std::string, int> met_at_;  // moments at which a condition was met
   int backs_ = 0;

@@ -108,22 +108,6 @@ TEST_CASE("a start that cannot be made: which literal, what is in the way, and a
   CHECK(pictures_in(mine / "why") == 1);
 }
 
-TEST_CASE(
-    "a condition of init that is never met: its line, what keeps the arm away, the cure, and ghosts of the hand") {
-  const Folder mine;
-  put_task(mine, "far = { \"tray\", at = { 0.75, 0, 0.75 } }, a = { \"cube\", at = { 0.75, 0, 0.7702 } }",
-           "is.reachable(\"a\")", "is.lifted(\"a\")");
-  const Said said = why(mine, {"--pictures", mine / "why"});
-  INFO(said.out << said.err);
-  CHECK(said.code == kNo);
-  CHECK(says(said.err, "tasks/t.lua:5: (reachable a) failed 100 times"));
-  CHECK(says(said.err, "out of reach ("));
-  CHECK(says(said.err, "; bring a nearer to panda"));
-  CHECK(says(said.err, "init (reachable a)"));
-  CHECK(says(said.err, " grasps: "));
-  CHECK(pixels_like(load_image(mine / "why/t-init-reachable-a-init_impossible.png"), 107, 112, 122) > 150);
-}
-
 TEST_CASE("a condition that something else stands in the way of: by how much, without a picture") {
   const Folder mine;
   put_task(mine, "a = " + kCube + ", b = { \"cube\", at = { 0.25, 0.1, 0.7702 } }", "is.spaced(\"a\", \"b\")",
