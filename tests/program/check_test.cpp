@@ -237,7 +237,7 @@ TEST_CASE("only what a task uses must be right: a broken file beside it is told,
   CHECK(run_one(mine, "take").code == kDone);
   const Said both = check(mine);
   CHECK(says(both.out, "tasks/linked.lua: a link that leads out of its root"));
-  CHECK(says(both.out, "tasks/picture.lua:1: the byte 0xFF here is no UTF-8 text"));
+  CHECK(says(both.out, "tasks/picture.lua:1: this is UTF-16, no UTF-8"));
 }
 
 TEST_CASE(
