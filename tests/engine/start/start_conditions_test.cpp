@@ -139,7 +139,7 @@ TEST_CASE("a thing that the hand cannot take for another: which one") {
   CHECK(tells(start, "keep table away from cube1"));
 }
 
-TEST_CASE("of what has a margin, how much is missing; of what nothing makes, that") {
+TEST_CASE("of what has a margin it is told how much is missing, of what nothing makes that nothing does") {
   Conditions symbols;
   const Start far = start_of(with({is("far", {"cube1", "cube2"}),
                                    is("far", {"cube2", "cube1"}),
