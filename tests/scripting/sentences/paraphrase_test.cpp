@@ -175,10 +175,10 @@ TEST_CASE("a file of sentences comes back as it was, and says where it is wrong"
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "push_button.sentences.json";
   SentenceFile file{
-      "push_button", {{LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", 3, {{"negated", 2}}}}, {}};
+      "push_button", {{{LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc"}, 3, {{"negated", 2}}}}, {}};
   file.sentences.push_back(
-      {"tap the maroon button", LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", {"words"}, 0});
-  file.sentences.push_back({"grab the {obj}", LanguageLevel::skill, "pick", Grain::goal, "m", "abc", {"words"}, 0});
+      {{LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc"}, "tap the maroon button", {"words"}, 0});
+  file.sentences.push_back({{LanguageLevel::skill, "pick", Grain::goal, "m", "abc"}, "grab the {obj}", {"words"}, 0});
   write_sentence_file(file, path);
   const SentenceFile again = read_sentence_file(path, "x");
   REQUIRE(again.sentences.size() == 2);

@@ -1,6 +1,5 @@
 -- The lid that lies beside the saucepan covers it again.
 return task {
-  world = "tabletop",
   objects = { saucepan = { "saucepan" }, lid = { "saucepan_lid" } },
   init = { is.on("saucepan", "table"), is.on("lid", "table"), is_not.crowds("saucepan", "lid") },
   goal = { is.on("lid", "saucepan"), is.on("saucepan", "table") },

@@ -1,11 +1,8 @@
 -- The cup goes behind one door of the cabinet, which is shut and is shut again.
-local places = require "worlds.lib.places"
-
 return task {
-  world = "tabletop",
   variations = { side = { "left", "right" } },
   objects = {
-    cabinet = { "sliding_cabinet", place = places.round_the_table { gap = 0.13, turn = deg(16) } },
+    cabinet = { "sliding_cabinet" },
     cup = { "tumbler", colour = one_of(colours.names) },
   },
   init = function(v)

@@ -2,9 +2,8 @@
 local places = require "worlds.lib.places"
 
 return task {
-  world = "tabletop",
   objects = {
-    fridge = { "fridge", place = places.left_or_behind { gap = 0.13, turn = deg(16), lean = -0.16 } },
+    fridge = { "fridge", place = places.right_or_across { gap = 0.13, turn = deg(16), lean = -0.16 } },
     bottle = { "water_bottle" },
   },
   init = { is.closed("fridge.door"), is.workable("fridge.door"), is.on("bottle", "table"), is_not.inside("bottle", "fridge.front") },

@@ -1,12 +1,9 @@
 -- Something goes into the microwave, which is shut and is shut again.
-local places = require "worlds.lib.places"
-
 return task {
-  world = "tabletop",
   variations = { thing = { "tuna_can", "money", "steak" } },
   objects = function(v)
     return {
-      microwave = { "microwave", place = places.behind_the_table { gap = 0.13, turn = deg(22), wide = 0.36 } },
+      microwave = { "microwave", at = on_table { between(0.57, 0.60), between(-0.22, 0.22) }, yaw = between(deg(-11), deg(11)) },
       item = { v.thing },
     }
   end,
