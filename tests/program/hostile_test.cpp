@@ -102,7 +102,8 @@ TEST_CASE("what would cost too much is said before it costs anything") {
 TEST_CASE("a skill that runs itself ends the skill, not the program") {
   const Folder mine;
   put(mine, "skills/again.lua",
-      "-- Again.\nreturn skill { params = { \"obj: movable\" }, effect = { is.holding(\"obj\") }, label = \"again "
+      "-- Again.\nreturn skill { params = { \"obj: movable\" }, effect = { is.holding(\"obj\"), is_not.hand_empty() }, "
+      "label = \"again "
       "{obj}\","
       " run = function(robot, p, c) robot:run(act.again(\"b\")) end }\n");
   put(mine, "tasks/t.lua", task_with("  steps = { act.again(\"b\") },\n", "cube"));

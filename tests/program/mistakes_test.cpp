@@ -28,7 +28,8 @@ TEST_CASE("each of nine mistakes is found with its line and its cure, one compla
       {"weightless", "worlds/objects/weightless.lua:4: mass: 'weightless' can move, so it needs a mass\n",
        "mass = 0.1 (kg)"},
       {"nowhere",
-       "tasks/nowhere.lua:4: objects.chest: nothing says where it is, and what does not move is not placed by init\n",
+       "tasks/nowhere.lua:4: objects.barbecue: nothing says where it is, and what does not move is not placed by "
+       "init\n",
        "at = on_table { 0.2, 0 }"},
       {"turned_ninety", "tasks/turned_ninety.lua:6: objects.chest.yaw: 90 rad are more than two turns\n",
        "angles are in rad: deg(90)"},

@@ -508,7 +508,7 @@ TEST_CASE("a generous mapping gives a task that passes the check, or a refusal w
   }
 }
 
-TEST_CASE("no plan: what nobody can see and is not assumed, and why; a task says what else cannot be seen in it") {
+TEST_CASE("no plan: what nobody can see and is not assumed, and why, and a task says what else cannot be seen in it") {
   const Folder mine;
   put(mine / "worlds/predicates/stamped.lua",
       "-- Stamped below.\nreturn predicate {\n  params = { \"obj: movable\" },\n  label = \"the {obj} is stamped\",\n"

@@ -142,7 +142,7 @@ TEST_CASE("a step that found a grasp and failed after that: green ghosts of the 
   const Folder mine;
   put(mine, "skills/give_up.lua",
       "-- Finds a grasp, and gives up.\nreturn skill {\n  params = { \"obj: movable & graspable\" },\n"
-      "  precondition = { is.hand_empty() }, effect = { is.holding(\"obj\") },\n"
+      "  precondition = { is.hand_empty() }, effect = { is.holding(\"obj\"), is_not.hand_empty() },\n"
       "  continuous = { grasp = stream(\"grasps\") }, label = \"give up\",\n"
       "  run = function(robot) robot:fail(\"no more\") end,\n}\n");
   put_task(mine, "a = " + kCube, "", "is.lifted(\"a\"), steps = act.give_up(\"a\")");

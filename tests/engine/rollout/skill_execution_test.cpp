@@ -353,7 +353,7 @@ TEST_CASE("a hand can grasp what is within its reach") {
   CHECK_FALSE(can_grasp(running.rollout->view(), "cube1"));
 }
 
-TEST_CASE("a grasp is chosen with which the plan's next step finds a place; where none does, any is taken") {
+TEST_CASE("a grasp is chosen with which the plan's next step finds a place, and where none does any is taken") {
   for (const bool wants_along : {true, false}) {
     RunningWith<OneSidePlaces> running;
     running.symbols.wants_along = wants_along;
