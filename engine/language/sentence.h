@@ -32,11 +32,9 @@ class Sentence {
   bool denies_start(const Segment& segment) const;   // `it should no longer be on its stand`
   // `take the handle`, `go to the button`, `take the seat by its grip`: on the way to what is done
   bool leads_on(const Segment& segment) const;
-  bool leads(const Segment& segment) const;  // there is a verb in a later one
 
   bool lifts() const;   // the plan ends in the air, above the table
   bool swings() const;  // what is opened or closed has something to take hold of
-  std::set<std::string> directions() const;
   const Word* verb(const Mention& mention) const {
     return mention.verb_at ? &reading.words[*mention.verb_at] : nullptr;
   }

@@ -15,13 +15,6 @@ std::string hash_of(const std::vector<ChatRequest>& requests) {
   return hasher.digest().substr(0, 16);
 }
 
-bool is_there(const ParaphraseJob& job, const std::string& model, const std::string& prompt, const SentenceFile& file) {
-  return std::any_of(file.asked.begin(), file.asked.end(), [&](const AskedFor& one) {
-    return one.level == job.level && one.of == job.of && one.grain == job.grain && one.model == model &&
-           one.prompt == prompt;
-  });
-}
-
 }  // namespace
 
 void ParaphraseTally::add(const ParaphraseTally& other) {
@@ -48,7 +41,8 @@ ParaphraseTally paraphrase(const ParaphraseJob& job, const SentenceChecker& chec
   const std::string& model = client.settings().model;
   const std::vector<ChatRequest> requests = requests_of(job, meaning);
   const std::string prompt = hash_of(requests);
-  if (is_there(job, model, prompt, file)) {
+  const SentenceOrigin origin{job.level, job.of, job.grain, model, prompt};
+  if (std::any_of(file.asked.begin(), file.asked.end(), [&](const SentenceOrigin& one) { return one == origin; })) {
     tally.jobs_there = 1;
     return tally;
   }
@@ -88,14 +82,13 @@ ParaphraseTally paraphrase(const ParaphraseJob& job, const SentenceChecker& chec
         continue;
       }
       known.push_back(sentence);
-      kept.push_back(
-          {sentence, job.level, job.of, job.grain, model, prompt, {"words", "near_duplicate", "asked_back"}, 0});
+      kept.push_back({origin, sentence, {"words", "near_duplicate", "asked_back"}});
     }
   }
   tally.passed = static_cast<std::int64_t>(kept.size());
   for (StoredSentence& one : kept) file.sentences.push_back(std::move(one));
   if (tally.refused.contains("no_answer")) return tally;  // asked again by the same command
-  AskedFor asked{job.level, job.of, job.grain, model, prompt, job.count, {}};
+  AskedFor asked{origin, job.count, {}};
   for (const auto& [reason, count] : tally.refused) asked.refused[reason] = static_cast<int>(count);
   file.asked.push_back(std::move(asked));
   return tally;

@@ -69,28 +69,29 @@ class Reader {
     return value.get<int>();
   }
 
-  LanguageLevel level_of(const json& one) const {
-    const std::string text = text_of(one, "level");
-    const auto level = language_level_from(text);
-    if (!level) fail(line_, "there is no level '" + text + "'", "it is task, world, subgoal, skill or motion");
-    return *level;
-  }
-
-  Grain grain_of(const json& one) const {
-    const std::string text = text_of(one, "grain");
-    const auto grain = language_grain_from(text);
-    if (!grain) fail(line_, "there is no grain '" + text + "'", "it is goal, steps or motions");
-    return *grain;
+  // The fields that both kinds of entries have; `further`: those that only this kind has.
+  SentenceOrigin origin_from(const json& one, std::vector<std::string> further) const {
+    SentenceOrigin origin;
+    const std::string level = text_of(one, "level");
+    if (const auto found = language_level_from(level))
+      origin.level = *found;
+    else
+      fail(line_, "there is no level '" + level + "'", "it is task, world, subgoal, skill or motion");
+    further.insert(further.end(), {"level", "of", "grain", "model", "prompt"});
+    only(one, further);
+    origin.of = text_of(one, "of");
+    const std::string grain = text_of(one, "grain");
+    if (const auto found = language_grain_from(grain))
+      origin.grain = *found;
+    else
+      fail(line_, "there is no grain '" + grain + "'", "it is goal, steps or motions");
+    origin.model = text_of(one, "model");
+    origin.prompt = text_of(one, "prompt");
+    return origin;
   }
 
   AskedFor asked_from(const json& one) const {
-    AskedFor asked;
-    asked.level = level_of(one);
-    only(one, {"level", "of", "grain", "model", "prompt", "count", "refused"});
-    asked.of = text_of(one, "of");
-    asked.grain = grain_of(one);
-    asked.model = text_of(one, "model");
-    asked.prompt = text_of(one, "prompt");
+    AskedFor asked{origin_from(one, {"count", "refused"})};
     if (one.contains("count")) asked.count = count_of(one["count"], "count");
     if (!one.contains("refused")) return asked;
     if (!one["refused"].is_object()) fail(line_, "'refused' is no object", "write it as { \"reason\": 1 }");
@@ -108,15 +109,9 @@ class Reader {
                                              text_.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
       from = at;
     }
-    StoredSentence sentence;
+    const std::string said = text_of(one, "text");
+    StoredSentence sentence{origin_from(one, {"text", "checks"}), said, {}};
     sentence.line = line_;
-    sentence.text = text_of(one, "text");
-    sentence.level = level_of(one);
-    only(one, {"text", "level", "of", "grain", "model", "prompt", "checks"});
-    sentence.of = text_of(one, "of");
-    sentence.grain = grain_of(one);
-    sentence.model = text_of(one, "model");
-    sentence.prompt = text_of(one, "prompt");
     for (const json& check : list_of(one, "checks")) {
       if (!check.is_string()) fail(line_, "'checks' is no list of texts", "write it as [\"words\"]");
       sentence.checks.push_back(check);
@@ -129,7 +124,18 @@ class Reader {
 };
 
 // Keys in our order, on one line.
-std::string line_of(const std::vector<std::pair<const char*, json>>& fields) {
+using Fields = std::vector<std::pair<const char*, json>>;
+
+Fields with_origin(Fields fields, const SentenceOrigin& origin) {
+  fields.insert(fields.end(), {{"level", to_string(origin.level)},
+                               {"of", origin.of},
+                               {"grain", to_string(origin.grain)},
+                               {"model", origin.model},
+                               {"prompt", origin.prompt}});
+  return fields;
+}
+
+std::string line_of(const Fields& fields) {
   std::string line = "{";
   for (const auto& [name, value] : fields)
     line += (line.size() > 1 ? ", \"" : "\"") + std::string(name) +
@@ -137,10 +143,12 @@ std::string line_of(const std::vector<std::pair<const char*, json>>& fields) {
   return line + "}";
 }
 
+// By origin, each on a line of its own.
 template <typename One, typename Line>
-std::string list_text(const std::vector<One>& all, Line&& line) {
+std::string list_text(std::vector<One> all, Line&& fields_of) {
+  std::stable_sort(all.begin(), all.end(), [](const SentenceOrigin& a, const SentenceOrigin& b) { return a < b; });
   std::string text = "[";
-  for (std::size_t i = 0; i < all.size(); ++i) text += (i == 0 ? "\n    " : ",\n    ") + line(all[i]);
+  for (std::size_t i = 0; i < all.size(); ++i) text += (i == 0 ? "\n    " : ",\n    ") + line_of(fields_of(all[i]));
   return text + (all.empty() ? "]" : "\n  ]");
 }
 
@@ -167,33 +175,19 @@ SentenceFile read_sentence_file(const std::filesystem::path& path, const std::st
 }
 
 void write_sentence_file(const SentenceFile& file, const std::filesystem::path& path) {
-  SentenceFile sorted = file;
-  const auto key = [](const auto& one) { return std::tie(one.level, one.of, one.grain, one.model, one.prompt); };
-  std::stable_sort(sorted.asked.begin(), sorted.asked.end(),
-                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  std::stable_sort(sorted.sentences.begin(), sorted.sentences.end(),
-                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  std::string text =
-      "{\n  \"version\": " + std::to_string(kSentenceFileVersion) + ",\n  \"task\": " + json(file.task).dump();
-  text += ",\n  \"asked\": " + list_text(sorted.asked, [](const AskedFor& one) {
-            return line_of({{"level", to_string(one.level)},
-                            {"of", one.of},
-                            {"grain", to_string(one.grain)},
-                            {"model", one.model},
-                            {"prompt", one.prompt},
-                            {"count", one.count},
-                            {"refused", one.refused}});
-          });
-  text += ",\n  \"sentences\": " + list_text(sorted.sentences, [](const StoredSentence& one) {
-            return line_of({{"text", one.text},
-                            {"level", to_string(one.level)},
-                            {"of", one.of},
-                            {"grain", to_string(one.grain)},
-                            {"model", one.model},
-                            {"prompt", one.prompt},
-                            {"checks", one.checks}});
-          });
-  write_text_file(path, text + "\n}\n");
+  const std::string asked = list_text(file.asked, [](const AskedFor& one) {
+    Fields fields = with_origin({}, one);
+    fields.insert(fields.end(), {{"count", one.count}, {"refused", one.refused}});
+    return fields;
+  });
+  const std::string sentences = list_text(file.sentences, [](const StoredSentence& one) {
+    Fields fields = with_origin({{"text", one.text}}, one);
+    fields.emplace_back("checks", one.checks);
+    return fields;
+  });
+  write_text_file(path, "{\n  \"version\": " + std::to_string(kSentenceFileVersion) +
+                            ",\n  \"task\": " + json(file.task).dump() + ",\n  \"asked\": " + asked +
+                            ",\n  \"sentences\": " + sentences + "\n}\n");
 }
 
 std::vector<Error> mistakes_in(const SentenceFile& file, const std::string& shown,

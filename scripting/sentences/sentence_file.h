@@ -1,6 +1,7 @@
 // Sentences of a task that a language model made and checks let pass: `tasks/NAME.sentences.json`, beside the task.
 #pragma once
 
+#include <compare>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -17,26 +18,27 @@ namespace stampede {
 
 inline constexpr int kSentenceFileVersion = 1;
 
-struct StoredSentence {
-  std::string text;
+// Of what, and by whom.
+struct SentenceOrigin {
   LanguageLevel level = LanguageLevel::task;
-  std::string
-      of;  // of task: the variation, empty where there is one; of others: the skill, predicate, subgoal or motion
+  // Of task: the variation, empty where there is one; of others: the skill, predicate, subgoal or motion.
+  std::string of;
   Grain grain = Grain::goal;
   std::string model;
-  std::string prompt;               // hash of what was asked
+  std::string prompt;  // hash of what was asked
+  auto operator<=>(const SentenceOrigin&) const = default;
+};
+
+struct StoredSentence : SentenceOrigin {
+  std::string text;
   std::vector<std::string> checks;  // that it passed: words, asked_back, near_duplicate
   int line = 0;                     // in its file, for messages
 };
 
 // What was asked for, so that it is not asked again.
-struct AskedFor {
-  LanguageLevel level = LanguageLevel::task;
-  std::string of;
-  Grain grain = Grain::goal;
-  std::string model, prompt;
-  int count = 0;                       // asked for
-  std::map<std::string, int> refused;  // by reason
+struct AskedFor : SentenceOrigin {
+  int count = 0;                            // asked for
+  std::map<std::string, int> refused = {};  // by reason
 };
 
 struct SentenceFile {

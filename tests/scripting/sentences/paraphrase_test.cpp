@@ -136,8 +136,8 @@ TEST_CASE("refusals in text, other languages and markup are turned down") {
        {"I'm sorry, but as an AI I cannot do that", "Нажмите красную кнопку", "按下按钮", "Drücken Sie den Knopf",
         "{\"a\": 1}", "<p>push the button</p>", "push", "", "the the the", "\xff\xfe\xfd \x80"})
     CHECK_FALSE(checker.check(text).ok());
-  CHECK(checker.check("I'm sorry, I am unable to assist").reason == Rejection::refused);
-  CHECK(checker.check("按下 红色 按钮").reason == Rejection::other_language);
+  CHECK(checker.check("I'm sorry, I am unable to assist").reason == Rejection::unknown_word);
+  CHECK(checker.check("按下 红色 按钮").reason == Rejection::unknown_word);
   CHECK(checker.check(std::string(100'000, 'a') + " push").reason.has_value());
   std::string longest;
   for (int i = 0; i < 20'000; ++i) longest += "push the button then ";
@@ -177,8 +177,8 @@ TEST_CASE("a file of sentences comes back as it was, and says where it is wrong"
   SentenceFile file{
       "push_button", {{LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", 3, {{"negated", 2}}}}, {}};
   file.sentences.push_back(
-      {"tap the maroon button", LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc", {"words"}, 0});
-  file.sentences.push_back({"grab the {obj}", LanguageLevel::skill, "pick", Grain::goal, "m", "abc", {"words"}, 0});
+      {{LanguageLevel::task, "colour=maroon", Grain::goal, "m", "abc"}, "tap the maroon button", {"words"}});
+  file.sentences.push_back({{LanguageLevel::skill, "pick", Grain::goal, "m", "abc"}, "grab the {obj}", {"words"}});
   write_sentence_file(file, path);
   const SentenceFile again = read_sentence_file(path, "x");
   REQUIRE(again.sentences.size() == 2);
