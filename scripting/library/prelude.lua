@@ -381,8 +381,11 @@ local function with_axes(text, v)
   local open = string.find(text, "{")
   local close = open and string.find(text, "}", open)
   if not close then return text end
-  local value = v[string.sub(text, open + 1, close - 1)]
-  if value == nil then say("'%s': there is no axis '%s'", text, string.sub(text, open + 1, close - 1)) end
+  local axis, value = string.sub(text, open + 1, close - 1), nil
+  for name, chosen in pairs(v) do -- v[axis] would speak of a place in here
+    if name == axis then value = chosen end
+  end
+  if value == nil then say("'%s': there is no axis '%s'", text, axis) end
   if open == 1 and close == #text then return value end
   return string.sub(text, 1, open - 1) .. tostring(value) .. with_axes(string.sub(text, close + 1), v)
 end

@@ -55,7 +55,7 @@ TEST_CASE("what passes is kept, what fails is counted by reason, and nothing is 
   CHECK(tally.refused.at("unknown_thing") == 1);
   CHECK(tally.refused.at("near_duplicate") == 1);
   CHECK(tally.refused.at("negated") == 1);
-  CHECK(tally.refused.at("other_language") == 1);
+  CHECK(tally.refused.at("unknown_word") == 1);
   REQUIRE(file.sentences.size() == 2);
   CHECK(file.sentences[0].text == "Put the rubbish into the bin");
   CHECK(file.sentences[0].model == "small");

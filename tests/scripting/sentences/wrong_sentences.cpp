@@ -92,7 +92,8 @@ class Maker {
       if (belongs || handled_alike(mention->things, thing.name) || done_so(*mention, thing))
         continue;  // the sentence may stay right
       for (const std::string& head : thing.heads)
-        if (head != noun.sense && !is_called(mention->things, head) && !said_of(mention->said(WordKind::colour), head) &&
+        if (head != noun.sense && !is_called(mention->things, head) &&
+            !said_of(mention->said(WordKind::colour), head) &&
             meaning_.lexicon.read("the " + head).back().kind == WordKind::noun)
           by.insert(head);
     }
