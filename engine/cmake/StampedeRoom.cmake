@@ -21,7 +21,9 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 set(CMAKE_CXX_FLAGS_RELEASE "-O2")
-set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")  # assertions of the standard library and of Eigen stay on
+if(CMAKE_CXX_FLAGS_DEBUG STREQUAL "-g")  # CMake's own: nobody asked for others
+  set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")  # assertions of the standard library and of Eigen stay on
+endif()
 
 option(STAMPEDE_WERROR "Treat warnings as errors" ON)
 
