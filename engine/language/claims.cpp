@@ -52,40 +52,7 @@ bool is_aside(const Reading& reading, std::size_t word) {
   });
 }
 
-}  // namespace
-
-std::vector<std::string> marks_in(const Reading& reading, const Texts& telling, const std::set<std::size_t>& skip) {
-  std::vector<std::string> marks;
-  for (const std::size_t segment : reading.in_time)
-    for (std::size_t i = reading.segments[segment].begin; i < reading.segments[segment].end; ++i) {
-      const Word& word = reading.words[i];
-      if (tells(word) && telling.contains(word.sense) && !skip.contains(i) &&
-          std::find(marks.begin(), marks.end(), word.sense) == marks.end())
-        marks.push_back(word.sense);
-    }
-  return marks;
-}
-
-Texts verbs_in(const Reading& reading) {
-  Texts verbs;
-  for (const Segment& segment : reading.segments) {
-    if (segment.negated || keeps_others(reading, segment)) continue;
-    for (std::size_t i = segment.begin; i < segment.end; ++i)
-      if (reading.words[i].kind == WordKind::verb && (segment.verb == i || !is_told(reading, i)))
-        verbs.insert(reading.words[i].sense);
-  }
-  return verbs;
-}
-
-Texts colours_in(const Reading& reading) {
-  Texts colours;
-  for (const Word& word : reading.words)
-    if (word.kind == WordKind::colour) colours.insert(word.sense);
-  return colours;
-}
-
-Texts directions_in(const Reading& reading, const Segment& segment, const English& english) {
-  Texts directions;
+void read_directions(const Reading& reading, const Segment& segment, const English& english, Texts& directions) {
   bool switches = false, puts = false;
   for (std::size_t i = segment.begin; i < segment.end; ++i) {
     const Word& word = reading.words[i];
@@ -106,6 +73,45 @@ Texts directions_in(const Reading& reading, const Segment& segment, const Englis
     if (word.kind != WordKind::grammar || word.is("telling"))
       if (english.opposites.contains(word.text)) directions.insert(word.text);
   }
+}
+
+}  // namespace
+
+std::vector<std::string> marks_in(const Reading& reading, const Texts& telling, const std::set<std::size_t>& skip) {
+  std::vector<std::string> marks;
+  for (const std::size_t segment : reading.in_time)
+    for (std::size_t i = reading.segments[segment].begin; i < reading.segments[segment].end; ++i) {
+      const Word& word = reading.words[i];
+      if (tells(word) && telling.contains(word.sense) && !skip.contains(i) &&
+          std::find(marks.begin(), marks.end(), word.sense) == marks.end())
+        marks.push_back(word.sense);
+    }
+  return marks;
+}
+
+Texts verbs_in(const Reading& reading, const SegmentTest& skip) {
+  Texts verbs;
+  for (const Segment& segment : reading.segments) {
+    if (segment.negated || skip(segment)) continue;
+    for (std::size_t i = segment.begin; i < segment.end; ++i)
+      if (reading.words[i].kind == WordKind::verb && (segment.verb == i || !is_told(reading, i)))
+        verbs.insert(reading.words[i].sense);
+  }
+  return verbs;
+}
+
+Texts colours_in(const Reading& reading) {
+  Texts colours;
+  for (const Word& word : reading.words)
+    if (word.kind == WordKind::colour) colours.insert(word.sense);
+  return colours;
+}
+
+Texts directions_in(const Reading& reading, const English& english, const SegmentTest& skip) {
+  Texts directions;
+  for (const Segment& segment : reading.segments)
+    if (!keeps_others(reading, segment) && !(skip && skip(segment)))
+      read_directions(reading, segment, english, directions);
   return directions;
 }
 
@@ -162,7 +168,9 @@ std::vector<std::string> free_numbers(const Reading& reading, const std::set<std
       const bool part = next != nullptr && next->is("of") && i < mention.head && i + 4 > mention.first;
       return mention.count && ((i >= mention.first && i <= mention.head) || part);
     });
-    if (!counts) numbers.push_back(word.sense);
+    if (counts) continue;
+    const bool named = next != nullptr && (next->kind == WordKind::own || next->kind == WordKind::noun);
+    numbers.push_back(word.sense + (named ? " " + next->sense : ""));
   }
   return numbers;
 }
@@ -177,9 +185,11 @@ Claims claims_of(const Meaning& meaning) {
       claims.segments.insert(content_of(reading, segment));
       if (segment.verb) claims.verbs.insert(reading.verb_of(segment));
     }
-    claims.done.push_back(verbs_in(reading));
+    claims.done.push_back(verbs_in(reading, [&](const Segment& one) { return keeps_others(reading, one); }));
     for (const Mention& mention : reading.mentions) {
-      for (const Attribute& said : mention.attributes) claims.attributes.emplace(said.sense, mention.sense);
+      for (const auto* words : {&mention.colours, &mention.adjectives, &mention.places})
+        for (const std::string& word : *words) claims.attributes.emplace(word, mention.sense);
+      for (const std::string& word : mention.modifiers) claims.attributes.emplace(word, mention.sense);
       const std::string role = role_key(reading, mention);
       claims.roles.emplace(role, mention.sense);
       if (mention.by_head)
@@ -190,11 +200,10 @@ Claims claims_of(const Meaning& meaning) {
       const Segment& segment = reading.segments[mention.segment];
       claims.others |= mention.other && !segment.negated && !segment.excluding && !mention.after;
     }
-    claims.numbers.insert(free_numbers(reading));
+    claims.numbers.push_back(free_numbers(reading));
     claims.colours.push_back(colours_in(reading));
     claims.places.merge(free_places(reading));
-    for (const Segment& segment : reading.segments)
-      if (!keeps_others(reading, segment)) claims.directions.merge(directions_in(reading, segment, english));
+    claims.directions.merge(directions_in(reading, english));
   }
   claims.marks = marks_of(meaning, claims.own);
   return claims;

@@ -35,16 +35,17 @@ inline constexpr std::array<std::string_view, 11> kWordKinds = {
 
 // What rules ask of a word beside its kind; worlds/words.lua says which words these are, and what for.
 inline constexpr std::array kWordClasses = std::to_array<std::string_view>(
-    {"above",     "after",        "again",    "air",          "all",          "already",    "article",  "assembling",
-     "away",      "back",         "be",       "before",       "belonging",    "both",       "built",    "by",
-     "demanding", "finger",       "from",     "general",      "general_type", "getting",    "given",    "giving",
-     "going",     "grip",         "hanging",  "helping",      "holding",      "implying",   "in_state", "inside",
-     "instead",   "into",         "join",     "keeping",      "lasting",      "leaving",    "located",  "modal",
-     "motion",    "noun_follows", "of",       "off",          "on",           "one",        "openness", "other",
-     "others",    "painted",      "polite",   "putting",      "putting_in",   "putting_up", "reaching", "relative",
-     "saying",    "seizing",      "several",  "shut",         "sided",        "sparing",    "standing", "state",
-     "stating",   "stative",      "swinging", "switching",    "table",        "taking",     "telling",  "towards",
-     "turning",   "until",        "upon",     "verb_follows", "way",          "where",      "wishing",  "with"});
+    {"above",      "after",    "again",    "air",      "all",          "already", "article",      "assembling",
+     "away",       "back",     "be",       "before",   "belonging",    "both",    "built",        "by",
+     "demanding",  "excuse",   "fetching", "finger",   "from",         "general", "general_type", "getting",
+     "given",      "giving",   "going",    "grasping", "grip",         "hanging", "helping",      "holding",
+     "implying",   "in_state", "inside",   "instead",  "into",         "join",    "keeping",      "lasting",
+     "leaving",    "located",  "modal",    "motion",   "noun_follows", "of",      "off",          "on",
+     "one",        "openness", "other",    "others",   "painted",      "polite",  "putting",      "putting_in",
+     "putting_up", "reaching", "relative", "saying",   "seizing",      "several", "showing",      "shut",
+     "sided",      "sparing",  "standing", "state",    "stating",      "stative", "swinging",     "switching",
+     "table",      "taking",   "telling",  "towards",  "turning",      "until",   "upon",         "verb_follows",
+     "way",        "where",    "wishing",  "with"});
 
 // One of them by name; another name does not compile.
 class WordClass {

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "engine/language/lexicon.h"
-#include "engine/model/scene.h"
+#include "engine/language/skill_sense.h"
 #include "engine/start/interfaces.h"
 
 namespace stampede {
@@ -49,21 +48,6 @@ struct ToldStep {
   std::vector<std::string> arguments;
 };
 
-// What a skill does with its arguments, as sentences tell it: read once from its effects, its label and `moves`.
-struct SkillSense {
-  bool takes = false;   // what it is about is in the hand then
-  bool raises = false;  // it ends in the air
-  int handled = 0;      // the parameter that it is about
-  int tool = -1;        // that it handles it with: held before and after, or put down to serve
-  std::set<int> moved, places;
-  std::string verb;                           // the sense of its first
-  std::map<int, std::set<std::string>> ways;  // how sentences say that it is at a parameter's place: in, on
-  std::set<std::string> directions;           // in which something moves: up, out, open …
-};
-// Of the skill's first action. `held`: predicates of what the pads grasp.
-SkillSense skill_sense(const SkillInfo& skill, const Domain& domain, const std::set<std::string>& held,
-                       std::shared_ptr<const English> english);
-
 struct Meaning {
   std::string task, variation;          // of a skill's or predicate's label: its name, and nothing
   std::vector<std::string> own;         // the author's sentences
@@ -84,22 +68,5 @@ struct Meaning {
 
 // `whole` is the thing or what it is a part of.
 bool is_part_of(const std::string& name, const std::string& whole);
-
-// The things of a start; their words go into the meaning's lexicon. What `others`, further starts of the variation,
-// have otherwise is said of none.
-void read_things(const Domain& domain, const Scene& scene, const std::vector<Scene>& others, Meaning& meaning);
-
-// What other starts call otherwise is called alike, in `facts` too.
-void name_alike(const std::vector<Scene>& others, Meaning& meaning);
-
-// What is to be done, from a state with these facts; what a plan does because of `assumed`, which nobody can see, is
-// not said.
-struct Deed {
-  const Facts& facts;
-  const Facts& assumed;
-  const Formula& goal;
-};
-// Of the goal and of meaning.steps, whose skills must be there.
-void read_roles(const Deed& deed, Meaning& meaning);
 
 }  // namespace stampede

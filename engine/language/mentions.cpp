@@ -38,7 +38,7 @@ class MentionReader {
   void read() {
     std::size_t segment = 0;
     for (std::size_t i = 0; i < words_.size(); ++i) {
-      while (segment + 1 < reading_.segments.size() && i >= reading_.segments[segment].end) ++segment, drop();
+      while (segment + 1 < reading_.segments.size() && i >= reading_.segments[segment].end) ++segment, after_.reset();
       step(i, segment);
     }
     for (Mention& mention : mentions_) resolve(mention);
@@ -59,14 +59,15 @@ class MentionReader {
     if (word.kind == WordKind::noun || is_pronoun_one(words_, i) || word.is("others")) return name(i, segment);
     switch (word.kind) {
       case WordKind::colour:
-        return say(mentions_.empty() || !describes_last(i) ? begin_at(i) : mentions_.back(), word);
+        return mentions_.empty() || !describes_last(i) ? begin_at(i).colours.push_back(word.sense)
+                                                       : mentions_.back().colours.push_back(word.sense);
       case WordKind::place:
-        if (!says_where_last_is(i)) return say(begin_at(i), word);
-        say(mentions_.back(), word);  // `the drawer at the bottom`
+        if (!says_where_last_is(i)) return begin_at(i).places.push_back(word.sense);
+        mentions_.back().places.push_back(word.sense);  // `the drawer at the bottom`
         mentions_.back().placed_by = i;
         return drop();
       case WordKind::adjective:
-        return say(begin_at(i), word);
+        return begin_at(i).adjectives.push_back(word.sense);
       case WordKind::number:
         if (!is_name(i)) begin_at(i).count = number_of(word);
         return;
@@ -90,7 +91,7 @@ class MentionReader {
     } else {
       aside_ |= word.is("relative") && i > 0 && words_[i - 1].kind == WordKind::noun;
       if (word.kind == WordKind::own && begun_)
-        open_.attributes.push_back({WordKind::adjective, word.sense});  // `the kitchen knife`
+        open_.adjectives.push_back(word.sense);  // `the kitchen knife`
       else if (word.kind == WordKind::verb || word.kind == WordKind::own)
         drop();
     }
@@ -103,7 +104,7 @@ class MentionReader {
     const bool more = word.kind == WordKind::noun && !word.is("others") && i + 1 < words_.size() &&
                       words_[i + 1].follows() && words_[i + 1].kind == WordKind::noun && !word.plural;
     if (more)
-      say(open_, word);
+      open_.modifiers.insert(word.sense);
     else
       finish(i, segment);
   }
@@ -127,8 +128,6 @@ class MentionReader {
     drop();
   }
 
-  static void say(Mention& mention, const Word& word) { mention.attributes.push_back({word.kind, word.sense}); }
-
   Mention& begin_at(std::size_t i) {
     if (!begun_) open_.first = i;
     begun_ = true;
@@ -150,7 +149,7 @@ class MentionReader {
       if (verb) mention.verb = words_[*verb].sense;
     };
     mention.verb_at = segment.verb;
-    if (reading_.is_possessor(mention)) return as("of");
+    if (is_possessor(mention)) return as("of");
     if (mention.partitive && reading_.at(mention.after, "of")) return as("part");
     if (reading_.at(mention.after, "with") && i > 0 && belongs(mention, mentions_[i - 1])) return as("of");
     if (verb_before && words_[*segment.verb].is("assembling") && reading_.at(mention.after, "from"))
@@ -177,6 +176,10 @@ class MentionReader {
       return;
     }
     as("subject", next_verb(mention, segment));
+  }
+
+  bool is_possessor(const Mention& mention) const {
+    return mention.head + 1 < words_.size() && words_[mention.head + 1].text == "'s";
   }
 
   bool is_listed(const Segment& segment) const {
@@ -218,8 +221,7 @@ class MentionReader {
   // `the cube in the drawer should …`, `bring the cube in the drawer to …`: where it is, not where it goes
   bool says_where(std::size_t i) const {
     const Mention& mention = mentions_[i];
-    const std::size_t owner =
-        i > 1 && reading_.is_possessor(mentions_[i - 1]) ? i - 2 : i - 1;  // `on the cabinet's shelf`
+    const std::size_t owner = i > 1 && is_possessor(mentions_[i - 1]) ? i - 2 : i - 1;  // `on the cabinet's shelf`
     const Mention& last = mentions_[owner];
     if (last.segment != mention.segment || last.after || !reading_.at(mention.after, "located") ||
         *mention.after != last.head + 1)
@@ -233,9 +235,8 @@ class MentionReader {
 
   // `the button with the navy cap`: a part of what was named just before, or that itself
   bool belongs(const Mention& part, const Mention& whole) const {
-    const std::vector<std::string> ours = part.said(WordKind::colour), theirs = whole.said(WordKind::colour);
     if (part.segment != whole.segment || part.after != whole.head + 1 ||
-        (!ours.empty() && !theirs.empty() && ours != theirs))
+        (!part.colours.empty() && !whole.colours.empty() && part.colours != whole.colours))
       return false;
     return any_pair(part, whole,
                     [](const auto& name, const auto& one) { return name == one || is_part_of(name, one); });
@@ -272,9 +273,9 @@ class MentionReader {
       mention.by_head = by_head;
       for (const SpokenThing& thing : meaning_.things) {
         if (!(by_head ? thing.heads : thing.words).contains(mention.sense)) continue;
-        if (std::any_of(mention.attributes.begin(), mention.attributes.end(), [&](const Attribute& said) {
-              return (said.kind == WordKind::noun || said.kind == WordKind::place) && unfit(thing, said.sense);
-            }))
+        const auto wrong = [&](const std::string& word) { return unfit(thing, word); };
+        if (std::any_of(mention.modifiers.begin(), mention.modifiers.end(), wrong) ||
+            std::any_of(mention.places.begin(), mention.places.end(), wrong))
           continue;
         mention.things.push_back(thing.name);
         mention.roles |= thing.roles;

@@ -13,17 +13,12 @@
 
 namespace stampede {
 
-// What is said of a thing beside its noun: a colour, a place, an adjective, a further noun (`knife` block).
-struct Attribute {
-  WordKind kind;
-  std::string sense;
-};
-
 // A noun phrase: `the three red blocks`, `the other cups`, `the blue one`.
 struct Mention {
   std::size_t first = 0, head = 0;  // words, from the first of the phrase to its noun
   std::string sense;                // of the noun; of `one`: the noun before it
-  std::vector<Attribute> attributes;
+  std::set<std::string> modifiers;  // further nouns: knife block
+  std::vector<std::string> colours, places, adjectives;
   std::optional<int> count;
   std::optional<int> total;              // `two of the three blocks`: three
   std::optional<std::size_t> placed_by;  // the word after it that says where it is: `the door on the left`
@@ -36,10 +31,9 @@ struct Mention {
   std::string verb;                    // the sense of the verb that has it as this part
   std::optional<std::size_t> verb_at;  // and its word
   std::size_t segment = 0;
-  std::vector<std::string> things;                     // of the scene, that it may be
-  ThingRoles roles;                                    // of any of these
-  bool by_head = false;                                // the noun names them; else it is only a word of their names
-  std::vector<std::string> said(WordKind kind) const;  // attributes of a kind
+  std::vector<std::string> things;  // of the scene, that it may be
+  ThingRoles roles;                 // of any of these
+  bool by_head = false;             // the noun names them; else it is only a word of their names
   std::string role() const { return verb.empty() ? part : part + " " + verb; }
   bool acts() const { return part == "object" || part == "subject"; }  // it is what something is done to
 };
@@ -62,7 +56,6 @@ struct Reading {
   bool any(const Segment& segment, WordClass of) const;  // of its words
   bool at(const std::optional<std::size_t>& word, WordClass of) const { return word && words[*word].is(of); }
   const std::string& verb_of(const Segment& segment) const;  // its sense; empty: it has none
-  bool is_possessor(const Mention& mention) const;           // `'s` follows
   bool ends_at(std::size_t word) const;                      // a stretch, with the word before
 };
 

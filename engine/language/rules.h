@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 
 #include "engine/language/sentence.h"
 
@@ -18,10 +17,12 @@ enum class Rejection {
   too_short,
   too_long,
   not_a_sentence,  // nothing is done or said in it, or signs that no sentence has
-  unknown_word,    // of another language too
-  unknown_thing,   // the scene has none
-  other_thing,     // it is there, and has no part in this
-  missing_thing,   // what has to be named is not
+  refused,         // the model excuses itself
+  other_language,
+  unknown_word,
+  unknown_thing,  // the scene has none
+  other_thing,    // it is there, and has no part in this
+  missing_thing,  // what has to be named is not
   wrong_colour,
   wrong_count,
   wrong_side,     // left for right, the bottom for the top, behind for on
@@ -41,17 +42,11 @@ using Grain = LanguageGrain;
 inline std::string quoted(const std::string& word) { return "'" + word + "'"; }
 using Fault = std::optional<std::string>;  // what is wrong, for people: which word, which thing; nothing: all is well
 
-// One way in which a sentence can be wrong: as a whole, or in a stretch or in what it mentions, where neither the
-// author says the same nor it has no part in this. Each is needed: without it some wrong sentence of the tests would
-// pass.
+// One way in which a sentence can be wrong. Each is needed: without it some wrong sentence of the tests would pass.
 struct Rule {
   Rejection reason;
   std::string_view name;
-  std::variant<Fault (*)(const Sentence&), Fault (*)(const Sentence&, const Segment&),
-               Fault (*)(const Sentence&, const Mention&)>
-      fault;
-  bool of_spared = false;  // it holds also of what is spared
-  Fault broken_by(const Sentence& sentence) const;
+  Fault (*fault)(const Sentence& sentence);
 };
 std::span<const Rule> word_rules();   // of words, whatever they name
 std::span<const Rule> thing_rules();  // of what is named: it is there, and has what is said of it

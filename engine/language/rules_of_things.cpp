@@ -7,27 +7,33 @@
 namespace stampede {
 namespace {
 
+using Mentions = Fault (*)(const Sentence&, const Mention&);
+
+// The first fault in what is named; `spared`: also where it has no part in this.
+template <Mentions fault, bool spared = false>
+Fault in_each(const Sentence& sentence) {
+  for (const Mention& mention : sentence.reading.mentions) {
+    const Segment& segment = sentence.segment(mention);
+    if (sentence.vouched(segment) && segment.negated) continue;
+    if (!spared && sentence.spares(segment)) continue;
+    if (Fault found = fault(sentence, mention)) return found;
+  }
+  return {};
+}
+
 bool any_thing(const Sentence& sentence, const Mention& mention, const auto& test) {
   return std::any_of(mention.things.begin(), mention.things.end(),
                      [&](const std::string& name) { return test(*sentence.meaning.thing(name)); });
 }
 
-// What is said of a thing is true of it: by the author, or by facts.
-bool bears(const Sentence& sentence, const Mention& mention, const Attribute& said) {
-  if (sentence.claims.attributes.contains({said.sense, mention.sense})) return true;
-  if (said.kind == WordKind::colour && mention.things.empty() && sentence.head(mention).is("built"))
-    return sentence.claims.marks.ours.contains(said.sense);
-  return any_thing(sentence, mention, [&](const SpokenThing& thing) {
-    if (said.kind == WordKind::colour) return thing.colours.contains(said.sense);
-    return thing.words.contains(said.sense) && (said.kind != WordKind::place || thing.roles.wanted);
-  });
+bool is_claimed(const Sentence& sentence, const std::string& attribute, const Mention& mention) {
+  return sentence.claims.attributes.contains({attribute, mention.sense});
 }
 
-template <WordKind kind>
-Fault not_so(const Sentence& sentence, const Mention& mention) {
-  for (const Attribute& said : mention.attributes)
-    if (said.kind == kind && !bears(sentence, mention, said)) return quoted(said.sense + " " + mention.sense);
-  return {};
+// A word of its names, or of the author's for it.
+bool is_called(const Sentence& sentence, const std::string& word, const Mention& mention) {
+  return is_claimed(sentence, word, mention) ||
+         any_thing(sentence, mention, [&](const SpokenThing& thing) { return thing.words.contains(word); });
 }
 
 Fault not_there(const Sentence& sentence, const Mention& mention) {
@@ -37,6 +43,23 @@ Fault not_there(const Sentence& sentence, const Mention& mention) {
                      std::any_of(sentence.meaning.things.begin(), sentence.meaning.things.end(),
                                  [&](const SpokenThing& one) { return one.words.contains(mention.sense); });
   return there ? std::nullopt : Fault(quoted(mention.sense));
+}
+
+Fault no_such(const Sentence& sentence, const Mention& mention) {
+  for (const std::string& word : mention.modifiers)
+    if (!is_called(sentence, word, mention)) return quoted(word + " " + mention.sense);
+  return {};
+}
+
+Fault other_colour(const Sentence& sentence, const Mention& mention) {
+  for (const std::string& colour : mention.colours) {
+    const bool built =
+        mention.things.empty() && sentence.head(mention).is("built") && sentence.claims.marks.ours.contains(colour);
+    if (!built && !is_claimed(sentence, colour, mention) &&
+        !any_thing(sentence, mention, [&](const SpokenThing& thing) { return thing.colours.contains(colour); }))
+      return "the " + mention.sense + " is not " + colour + " in every start";
+  }
+  return {};
 }
 
 // A button's cap is no other button.
@@ -93,14 +116,29 @@ Fault one_for_several(const Sentence& sentence, const Mention& mention) {
 }
 
 Fault side_twice(const Sentence&, const Mention& mention) {
-  const std::vector<std::string> places = mention.said(WordKind::place);
-  const bool twice = Texts(places.begin(), places.end()).size() < places.size();
-  return twice ? Fault(quoted(places.front()) + " twice") : std::nullopt;
+  const bool twice = Texts(mention.places.begin(), mention.places.end()).size() < mention.places.size();
+  return twice ? Fault(quoted(mention.places.front()) + " twice") : std::nullopt;
+}
+
+Fault other_side(const Sentence& sentence, const Mention& mention) {
+  for (const std::string& place : mention.places)
+    if (!is_claimed(sentence, place, mention) && !any_thing(sentence, mention, [&](const SpokenThing& thing) {
+          return thing.words.contains(place) && thing.roles.wanted;
+        }))
+      return quoted(place);
+  return {};
+}
+
+Fault bare_claim(const Sentence& sentence, const Mention& mention) {
+  for (const std::string& word : mention.adjectives)
+    if (!is_called(sentence, word, mention)) return quoted(word) + " " + mention.sense;
+  return {};
 }
 
 Fault no_part(const Sentence& sentence, const Mention& mention) {
-  if (mention.things.empty() || mention.other || mention.roles.wanted || sentence.segment(mention).excluding ||
-      sentence.stands_on_table(mention))
+  const Segment& segment = sentence.segment(mention);
+  if (mention.things.empty() || mention.other || mention.roles.wanted || sentence.vouched(segment) ||
+      segment.excluding || sentence.stands_on_table(mention))
     return {};
   if (mention.partitive && (mention.plural || mention.count)) return {};  // `of all the groceries`
   return "the " + mention.things.front() + " has no part in this";
@@ -109,7 +147,15 @@ Fault no_part(const Sentence& sentence, const Mention& mention) {
 // Those that count nothing that is named.
 Fault number_of_nothing(const Sentence& sentence) {
   const std::vector<std::string> ours = free_numbers(sentence.reading, sentence.beside());
-  return ours.empty() || sentence.claims.numbers.contains(ours) ? std::nullopt : Fault(ours.front());
+  const auto bare = [](std::vector<std::string> list) {
+    for (std::string& one : list) one = one.substr(0, one.find(' '));
+    return list;
+  };
+  const auto& theirs = sentence.claims.numbers;
+  if (ours.empty() ||
+      std::any_of(theirs.begin(), theirs.end(), [&](const auto& own) { return bare(own) == bare(ours); }))
+    return {};
+  return ours.front();
 }
 
 // Also those that are said of no noun.
@@ -204,16 +250,16 @@ Fault too_little(const Sentence& sentence) {
 std::span<const Rule> thing_rules() {
   using enum Rejection;
   static const Rule kRules[] = {
-      {unknown_thing, "not there", not_there, true},
-      {unknown_thing, "no such", not_so<WordKind::noun>},
-      {wrong_colour, "other colour", not_so<WordKind::colour>},
-      {missing_thing, "which of several", which_of_several},
-      {wrong_count, "other count", other_count},
-      {wrong_count, "one for several", one_for_several},
-      {wrong_side, "side twice", side_twice},
-      {wrong_side, "other side", not_so<WordKind::place>},
-      {unproved, "bare claim", not_so<WordKind::adjective>},
-      {other_thing, "no part", no_part},
+      {unknown_thing, "not there", in_each<not_there, true>},
+      {unknown_thing, "no such", in_each<no_such, true>},
+      {wrong_colour, "other colour", in_each<other_colour>},
+      {missing_thing, "which of several", in_each<which_of_several>},
+      {wrong_count, "other count", in_each<other_count>},
+      {wrong_count, "one for several", in_each<one_for_several>},
+      {wrong_side, "side twice", in_each<side_twice>},
+      {wrong_side, "other side", in_each<other_side>},
+      {unproved, "bare claim", in_each<bare_claim>},
+      {other_thing, "no part", in_each<no_part>},
       {wrong_count, "number of nothing", number_of_nothing},
       {wrong_colour, "colour of nothing", colour_of_nothing},
       {missing_thing, "missing colour", missing_colour},

@@ -78,10 +78,13 @@ bool Sentence::denies_start(const Segment& segment) const {
   return (state || place) && (instead || reading.any(segment, "stative"));
 }
 
+bool Sentence::leads(const Segment& segment) const {
+  return std::any_of(reading.segments.begin(), reading.segments.end(),
+                     [&](const Segment& one) { return one.verb && one.begin > segment.begin; });
+}
+
 bool Sentence::leads_on(const Segment& segment) const {
-  const bool leads = std::any_of(reading.segments.begin(), reading.segments.end(),
-                                 [&](const Segment& one) { return one.verb && one.begin > segment.begin; });
-  if (!leads || !reading.at(segment.verb, "seizing")) return false;
+  if (!leads(segment) || !reading.at(segment.verb, "seizing")) return false;
   bool by_handle = false, own = false, handle = false;
   for (const Mention& mention : reading.mentions) {
     if (!segment.holds(mention.head)) continue;
@@ -104,6 +107,10 @@ bool Sentence::swings() const {
   return std::any_of(meaning.skills.begin(), meaning.skills.end(), [](const auto& one) {
     return one.second.directions.contains("open") || one.second.directions.contains("close");
   });
+}
+
+std::set<std::string> Sentence::directions() const {
+  return directions_in(reading, english, [this](const Segment& segment) { return denies_start(segment); });
 }
 
 bool Sentence::stands_on_table(const Mention& mention) const {

@@ -1,6 +1,7 @@
-#include <algorithm>
+#include "engine/language/skill_sense.h"
 
-#include "engine/language/meaning.h"
+#include <algorithm>
+#include <map>
 
 namespace stampede {
 namespace {
@@ -36,8 +37,9 @@ class SenseReader {
     read_effects();
     find_parameters();
     sense_.takes = taken_.contains(name(sense_.handled));
-    puts_ = put_.contains(name(sense_.handled));
-    sense_.raises = !puts_ && (sense_.takes || before_.contains(name(sense_.handled)));
+    sense_.puts = put_.contains(name(sense_.handled));
+    sense_.raises = !sense_.puts && (sense_.takes || before_.contains(name(sense_.handled)));
+    sense_.of_parts = !sense_.puts && !(sense_.takes && skill_.parameters.size() > 2);
     find_places();
     find_ways();
     read_verbs();
@@ -87,9 +89,9 @@ class SenseReader {
     for (int i = 0; i < static_cast<int>(skill_.parameters.size()); ++i) {
       if (i == sense_.handled || skill_.parameters[static_cast<std::size_t>(i)].type == "hand") continue;
       ++others;
-      if (!sense_.takes && (!puts_ || first.contains(name(i)))) sense_.places.insert(i);
+      if (!sense_.takes && (!sense_.puts || first.contains(name(i)))) sense_.places.insert(i);
     }
-    if (puts_ && others > 1) sense_.tool = sense_.handled;
+    if (sense_.puts && others > 1) sense_.tool = sense_.handled;
   }
 
   // As its label says, and those of what becomes true.
@@ -103,7 +105,7 @@ class SenseReader {
         if (const auto found = ways.find(predicate->parameters[i].name); found != ways.end())
           add_way(effect->terms[i].name, found->second);
     }
-    for (const Word& word : lexicon_.read(skill_.label)) leaves_ |= word.is("away");
+    for (const Word& word : lexicon_.read(skill_.label)) sense_.leaves |= word.is("away");
   }
 
   void add_way(const std::string& parameter, const std::string& way) {
@@ -125,9 +127,9 @@ class SenseReader {
         std::any_of(sense_.ways.begin(), sense_.ways.end(), [](const auto& one) { return one.second.contains("in"); });
     if (sense_.raises) sense_.directions.insert("up");
     if (sense_.takes) sense_.directions.insert("out");
-    if (sense_.takes && leaves_) sense_.directions.insert("remove");
-    if (puts_ && in) sense_.directions.insert({"in", "insert"});
-    if (puts_ && !in) sense_.directions.insert("down");
+    if (sense_.takes && sense_.leaves) sense_.directions.insert("remove");
+    if (sense_.puts && in) sense_.directions.insert({"in", "insert"});
+    if (sense_.puts && !in) sense_.directions.insert("down");
   }
 
   const SkillInfo& skill_;
@@ -135,8 +137,6 @@ class SenseReader {
   const std::set<std::string>& held_;
   const Lexicon lexicon_;
   SkillSense sense_;
-  bool puts_ = false;                           // what it is about is no longer in the hand then
-  bool leaves_ = false;                         // it is taken out of something, or off it
   std::set<std::string> before_, taken_, put_;  // parameters that are held before, after, no longer
   std::vector<const Effect*> made_;             // what becomes true
 };

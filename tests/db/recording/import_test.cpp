@@ -262,6 +262,10 @@ TEST_CASE("an arm without a recorded hand is stored, and its hand is not known")
 
 TEST_CASE("labels come later too, and take the place of those of the same sort") {
   const Lab lab;
+  lab.write("labels.json", R"({"segments": [{"kind": "skill", "name": "point", "start_s": 0, "end_s": 1}],
+                              "facts": [{"fact": ["raised", "arm"], "start_s": 0.5, "end_s": 1.5}],
+                              "language": [{"text": "wave your arm"}]})");
+  lab.change([](auto& json) { json["labels"] = "labels.json"; });
   Catalogue catalogue = Catalogue::write(lab.folder() / "a.db");
   const std::int64_t id = *catalogue.add_if_new(lab.import(), kEngine);
   EpisodeRecord e = catalogue.read_episode(id);

@@ -55,7 +55,7 @@ TEST_CASE("what passes is kept, what fails is counted by reason, and nothing is 
   CHECK(tally.refused.at("unknown_thing") == 1);
   CHECK(tally.refused.at("near_duplicate") == 1);
   CHECK(tally.refused.at("negated") == 1);
-  CHECK(tally.refused.at("unknown_word") == 1);
+  CHECK(tally.refused.at("other_language") == 1);
   REQUIRE(file.sentences.size() == 2);
   CHECK(file.sentences[0].text == "Put the rubbish into the bin");
   CHECK(file.sentences[0].model == "small");
@@ -136,8 +136,8 @@ TEST_CASE("refusals in text, other languages and markup are turned down") {
        {"I'm sorry, but as an AI I cannot do that", "Нажмите красную кнопку", "按下按钮", "Drücken Sie den Knopf",
         "{\"a\": 1}", "<p>push the button</p>", "push", "", "the the the", "\xff\xfe\xfd \x80"})
     CHECK_FALSE(checker.check(text).ok());
-  CHECK(checker.check("I'm sorry, I am unable to assist").reason == Rejection::unknown_word);
-  CHECK(checker.check("按下 红色 按钮").reason == Rejection::unknown_word);
+  CHECK(checker.check("I'm sorry, I am unable to assist").reason == Rejection::refused);
+  CHECK(checker.check("按下 红色 按钮").reason == Rejection::other_language);
   CHECK(checker.check(std::string(100'000, 'a') + " push").reason.has_value());
   std::string longest;
   for (int i = 0; i < 20'000; ++i) longest += "push the button then ";

@@ -92,8 +92,7 @@ class Maker {
       if (belongs || handled_alike(mention->things, thing.name) || done_so(*mention, thing))
         continue;  // the sentence may stay right
       for (const std::string& head : thing.heads)
-        if (head != noun.sense && !is_called(mention->things, head) &&
-            !said_of(mention->said(WordKind::colour), head) &&
+        if (head != noun.sense && !is_called(mention->things, head) && !said_of(mention->colours, head) &&
             meaning_.lexicon.read("the " + head).back().kind == WordKind::noun)
           by.insert(head);
     }
@@ -114,7 +113,7 @@ class Maker {
   bool said_of(const std::vector<std::string>& colours, const std::string& noun) const {
     for (const std::string& sentence : meaning_.own)
       for (const Mention& mention : read_sentence(sentence, meaning_).mentions)
-        for (const std::string& colour : mention.said(WordKind::colour))
+        for (const std::string& colour : mention.colours)
           if (mention.sense == noun && std::find(colours.begin(), colours.end(), colour) != colours.end()) return true;
     return false;
   }
