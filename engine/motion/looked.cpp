@@ -75,20 +75,22 @@ const Looked* nearest_miss(std::span<const Looked> looked) {
 const Looked* commonest_miss(std::span<const Looked> looked) {
   const auto misses = [](const Looked& one) { return one.fate != Looked::Fate::usable; };
   const bool of_best = std::ranges::any_of(looked, [&](const Looked& one) { return misses(one) && one.best; });
-  std::map<std::string, int> counts;
-  const Looked* commonest = nullptr;
-  for (const bool counting : {true, false})
-    for (const Looked& one : looked) {
-      if (!misses(one) || (of_best && !one.best)) continue;
-      if (counting) {
-        ++counts[cause_of(one)];
-        continue;
-      }
-      const int more = commonest == nullptr ? 1 : counts[cause_of(one)] - counts[cause_of(*commonest)];
-      const bool same = commonest != nullptr && cause_of(one) == cause_of(*commonest);
-      if (more > 0 || (same && distance_of(one) < distance_of(*commonest))) commonest = &one;
-    }
-  return commonest;
+  struct Cause {
+    std::string name;
+    int times = 0;
+    const Looked* nearest = nullptr;
+  };
+  std::vector<Cause> causes;  // in the order in which they come
+  for (const Looked& one : looked) {
+    if (!misses(one) || (of_best && !one.best)) continue;
+    std::string name = cause_of(one);
+    auto cause = std::ranges::find(causes, name, &Cause::name);
+    if (cause == causes.end()) cause = causes.insert(cause, {std::move(name), 0, &one});
+    ++cause->times;
+    if (distance_of(one) < distance_of(*cause->nearest)) cause->nearest = &one;
+  }
+  const auto commonest = std::ranges::max_element(causes, {}, &Cause::times);  // the first of equals
+  return commonest == causes.end() ? nullptr : commonest->nearest;
 }
 
 std::string Causes::text() const {

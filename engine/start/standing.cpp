@@ -55,7 +55,7 @@ std::optional<Blocked> blocked_arm(const CollisionState& state, const Robot& rob
 }
 
 std::optional<Blocked> blocked_bodies(const CollisionState& state, bool settled) {
-  const double most_m = settled ? 0.001 : 0.0011;
+  const double most_m = settled ? 0.001 : kPlacedDepth_m;
   const Scene& scene = state.scene();
   std::vector<Overlap> all = overlapping_bodies(state, most_m);
   if (!settled)

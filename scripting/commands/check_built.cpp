@@ -10,6 +10,7 @@
 #include "engine/model/kinematics.h"
 #include "engine/motion/looked.h"
 #include "engine/sim/overlap.h"
+#include "engine/start/standing.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/source_lines.h"
 #include "scripting/runtime/assets.h"
@@ -286,7 +287,7 @@ class Builds {
   static std::vector<Overlap> fixed_overlaps(const Scene& scene) {
     if (std::ranges::none_of(scene.bodies, [](const Body& body) { return !body.free && !body.fixture; })) return {};
     const auto shared = std::make_shared<const Scene>(scene);
-    const std::vector<Overlap> found = overlapping_bodies(World(shared).collision_state(), kTouchingBodies);
+    const std::vector<Overlap> found = overlapping_bodies(World(shared).collision_state(), kPlacedDepth_m);
     std::vector<Overlap> kept;  // of the parts of two bodies the deepest, which comes first
     for (const Overlap& pair : found) {
       const bool moves = shared->body_at(pair.one.body).free || shared->body_at(pair.other.body).free;
@@ -301,7 +302,6 @@ class Builds {
   }
 
   static constexpr int kDrawsApart = 8;
-  static constexpr double kTouchingBodies = 0.0011;  // m: what a start may have, see blocked_bodies
 
   std::shared_ptr<const Library> library_;
   const BuiltCheck& asked_;
