@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "engine/model/camera.h"
+#include "engine/record/observation.h"
+#include "engine/render/renderer.h"
 
 namespace stampede {
 namespace {

@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "db/catalogue.h"
-#include "engine/record/observation.h"
+#include "engine/record/record.h"
 
 namespace stampede {
+
+class ImageStore;
+class Renderer;
+struct Observation;
 
 struct StoredEpisode {
   std::int64_t id = 0;

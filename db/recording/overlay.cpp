@@ -8,6 +8,7 @@
 #include "engine/base/text.h"
 #include "engine/model/camera.h"
 #include "engine/model/masks.h"
+#include "engine/record/observation.h"
 #include "engine/render/png.h"
 
 namespace stampede {

@@ -7,6 +7,9 @@
 
 namespace stampede {
 
+class Symbols;
+struct Task;
+
 // The key of all draws of one purpose.
 RandomKey draw_key(const char* purpose, const EpisodeRecord& record);
 

@@ -6,9 +6,13 @@
 #include "engine/base/error.h"
 #include "engine/base/reason.h"
 #include "engine/start/options.h"
+#include "engine/start/task.h"
 #include "stampede/environment.h"
 
 namespace stampede {
+
+class SkillLibrary;
+class Symbols;
 
 // What reset throws where no start was found.
 class NoStart : public Error {

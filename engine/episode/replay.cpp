@@ -5,6 +5,7 @@
 #include "engine/record/arrays.h"
 #include "engine/rollout/recorder.h"
 #include "engine/rollout/sensors.h"
+#include "engine/sim/world.h"
 
 namespace stampede {
 namespace {

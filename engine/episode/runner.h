@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "engine/start/options.h"
+#include "engine/start/task.h"
 
 namespace stampede {
+
+class SkillLibrary;
+class Symbols;
 
 // Runs one episode to its end, good or bad. Repeatable: the same record, bit for bit, but for host times.
 // `stop`: ends early with Reason::interrupted when true (checked between skills and every frame).

@@ -8,7 +8,7 @@
 
 #include "engine/language/lexicon.h"
 #include "engine/language/skill_sense.h"
-#include "engine/start/interfaces.h"
+#include "engine/start/task.h"
 
 namespace stampede {
 

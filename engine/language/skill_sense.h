@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/language/lexicon.h"
-#include "engine/start/interfaces.h"
+#include "engine/start/declared.h"
 
 namespace stampede {
 

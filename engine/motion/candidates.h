@@ -11,20 +11,9 @@
 #include "engine/motion/looked.h"
 #include "engine/motion/part_way.h"
 #include "engine/motion/planner.h"
+#include "engine/motion/targets.h"
 
 namespace stampede {
-
-struct GraspCandidate {
-  Transform world_from_tip;       // at the grasp
-  Transform world_from_approach;  // tip pose before, along the tip's -z
-  Transform object_from_tip;
-  double width = 0.04;    // expected opening at contact, m
-  double opening = 0.08;  // to approach with, m
-  double force = 20;      // N
-  int index = 0;          // k of the stream
-  // How far the part can be taken from here, where that was asked: its joint's position.
-  std::optional<double> reach = {};
-};
 
 // What grasps are sought for: an object, by an arm that is at `start`.
 // Lifetime: refers to all but the start.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/sim/collision_state.h"
+
 namespace stampede {
 namespace {
 

@@ -8,9 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "engine/sim/collision_state.h"
+#include "engine/geometry/transform.h"
+#include "engine/model/kinematics.h"
+#include "engine/model/part_ref.h"
+#include "engine/model/scene.h"
 
 namespace stampede {
+
+class CollisionState;
 
 struct Looked {
   // crowded: it would leave no room for a hand beside it. no_way: both ends are free, what is between is not.

@@ -10,6 +10,7 @@
 #include "engine/base/reason.h"
 #include "engine/motion/motion.h"
 #include "engine/motion/part_way.h"
+#include "engine/motion/targets.h"
 #include "engine/sim/collision_state.h"
 
 namespace stampede {
@@ -47,12 +48,6 @@ struct PlannedMotion {
   Trajectory trajectory;
   std::vector<PlannedVia> vias;
   std::vector<PlannedHand> hands;
-};
-
-struct ToolTarget {
-  std::string name;  // of the via-point; the last one is the goal
-  Transform world_from_tip;
-  bool ahead = false;  // after the goal: not travelled now, but the arm must be able to go on there in a straight line
 };
 
 // Joint path between two configurations: our own RRT-Connect (Kuffner, LaValle, ICRA 2000,

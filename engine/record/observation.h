@@ -9,31 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/record/observation_choice.h"
 #include "engine/record/record.h"
 #include "engine/record/torque_noise.h"
 #include "engine/render/renderer.h"
 #include "engine/render/sensor_noise.h"
 
 namespace stampede {
-
-enum class WhichFrames { none, keyframes, all };
-std::string_view to_string(WhichFrames value);
-std::optional<WhichFrames> which_frames_from(std::string_view text);
-
-// What somebody asks for; the rest is left to others: the command line goes before the task, the task before the world.
-struct ObservationChoice {
-  std::optional<WhichFrames> images;
-  std::optional<std::vector<std::string>> cameras;
-  std::optional<std::array<int, 2>> size;  // width, height
-  std::optional<PictureKinds> kinds;
-  std::optional<bool> points, shadows;
-  std::optional<DrawnBy> renderer;
-  std::optional<double> rgb_noise, depth_noise, torque_noise;
-  std::optional<TorqueNoise> torque_model;
-  std::optional<std::vector<std::string>> channels;
-  std::map<std::string, std::string> as_text() const;  // what was chosen, `observe_size` -> `64x48` …
-};
-ObservationChoice before(const ObservationChoice& first, const ObservationChoice& otherwise);
 
 // What is off is not computed.
 struct Observation {

@@ -5,6 +5,7 @@
 
 #include "engine/base/random.h"
 #include "engine/start/planning.h"
+#include "engine/symbolic/task_planner.h"
 
 namespace stampede {
 

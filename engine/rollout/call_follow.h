@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "engine/motion/pieces.h"
-#include "engine/start/interfaces.h"
+#include "engine/start/robot_call.h"
+#include "engine/start/world_view.h"
 
 namespace stampede {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/motion/candidates.h"
 #include "engine/motion/passable.h"
 #include "engine/motion/stops.h"
 #include "engine/rollout/call_follow.h"

@@ -8,8 +8,8 @@
 #include "engine/motion/part_way.h"
 #include "engine/motion/planner.h"
 #include "engine/rollout/rollout.h"
-#include "engine/start/interfaces.h"
 #include "engine/start/part_questions.h"
+#include "engine/start/robot_call.h"
 
 namespace stampede {
 

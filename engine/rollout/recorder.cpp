@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/record/scene_record.h"
+#include "engine/sim/world.h"
 
 namespace stampede {
 namespace {

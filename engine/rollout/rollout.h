@@ -5,9 +5,11 @@
 
 #include "engine/rollout/recorder.h"
 #include "engine/rollout/sensors.h"
+#include "engine/sim/world.h"
 #include "engine/start/fact_tracker.h"
 #include "engine/start/margins.h"
 #include "engine/start/start.h"
+#include "engine/start/task.h"
 
 namespace stampede {
 

@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/record/scene_record.h"
+#include "engine/sim/world.h"
 #include "stampede/environment.h"
 
 namespace stampede {

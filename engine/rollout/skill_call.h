@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/start/interfaces.h"
+#include "engine/record/record.h"
+#include "engine/start/call_settings.h"
+#include "engine/start/declared.h"
+#include "engine/symbolic/task_planner.h"
 
 namespace stampede {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/motion/candidates.h"
 #include "engine/motion/planner.h"
 #include "engine/rollout/call_motion.h"
 #include "engine/start/part_questions.h"

@@ -7,6 +7,7 @@
 #include "engine/rollout/rollout.h"
 #include "engine/rollout/skill_call.h"
 #include "engine/start/impasse.h"
+#include "engine/start/skills.h"
 
 namespace stampede {
 

@@ -15,6 +15,8 @@
 #include "engine/rollout/skill_call.h"
 #include "engine/rollout/skill_motion.h"
 #include "engine/rollout/skill_policy.h"
+#include "engine/start/impasse.h"
+#include "engine/start/skills.h"
 
 namespace stampede {
 

@@ -8,6 +8,7 @@
 #include "engine/rollout/passages.h"
 #include "engine/rollout/rollout.h"
 #include "engine/rollout/skill_call.h"
+#include "engine/start/robot_call.h"
 
 namespace stampede {
 

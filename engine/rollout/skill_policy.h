@@ -9,6 +9,7 @@
 
 #include "engine/motion/motion.h"
 #include "engine/rollout/observer.h"
+#include "engine/start/robot_call.h"
 
 namespace stampede {
 

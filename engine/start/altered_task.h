@@ -2,8 +2,11 @@
 #pragma once
 
 #include "engine/start/options.h"
+#include "engine/start/task.h"
 
 namespace stampede {
+
+class Symbols;
 
 // With another goal the task's own steps, stages, subgoals and functions are left out. Throws Error for a goal that
 // speaks of what the task's scene does not have.

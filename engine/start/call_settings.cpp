@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest.h"
 #include "engine/base/text.h"
+#include "engine/start/declared.h"
 
 namespace stampede {
 namespace {

@@ -2,13 +2,30 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/start/interfaces.h"
+#include "engine/model/operation.h"
 
 namespace stampede {
+
+struct SkillInfo;
+
+// What a caller sets of a skill's call instead of leaving it to be drawn.
+struct CallSettings {
+  struct Value {
+    std::string parameter;  // a declared continuous one
+    int component = 0;      // from 1; 0: all of it
+    std::vector<double> values;
+    friend bool operator==(const Value&, const Value&) = default;
+  };
+  std::vector<Value> values;  // later ones win
+  std::optional<ControllerKind> controller;
+  bool empty() const { return values.empty() && !controller; }
+  friend bool operator==(const CallSettings&, const CallSettings&) = default;
+};
 
 // Throws Error, at `place`: an unknown parameter or component (with the names that there are), another number of values
 // than the parameter has, a value out of its bounds or not finite. A pose has 7 values (x y z, quaternion x y z w) in

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/start/interfaces.h"
+#include "engine/start/predicates.h"
+#include "engine/start/task.h"
 
 namespace stampede {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/sim/world.h"
 
 namespace stampede {
 

@@ -4,7 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "engine/start/interfaces.h"
+#include "engine/sim/collision_state.h"
+#include "engine/start/predicates.h"
+#include "engine/start/world_view.h"
 
 namespace stampede {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/record/record.h"
-#include "engine/start/interfaces.h"
+#include "engine/start/task.h"
 
 namespace stampede {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/sim/world.h"
 #include "engine/symbolic/instances.h"
 #include "engine/symbolic/pddl_text.h"
 

@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "engine/base/shared_list.h"
-#include "engine/start/interfaces.h"
+#include "engine/record/record.h"
+#include "engine/start/declared.h"
+#include "engine/start/predicates.h"
+#include "engine/start/world_view.h"
 
 namespace stampede {
 

@@ -1,5 +1,6 @@
 #include "engine/start/impasse.h"
 
+#include "engine/sim/world.h"
 #include "engine/start/fact_tracker.h"
 
 namespace stampede {

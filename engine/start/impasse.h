@@ -1,7 +1,6 @@
 // What stood in the way where a skill or a start found nothing to take or no place, or failed later: all it looked at.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,9 +8,10 @@
 #include "engine/base/reason.h"
 #include "engine/model/scene_poses.h"
 #include "engine/motion/looked.h"
-#include "engine/start/world_view.h"
 
 namespace stampede {
+
+class WorldView;
 
 struct Impasse {
   std::string task, variation;
@@ -27,8 +27,5 @@ struct Impasse {
 };
 
 SceneState state_of(const WorldView& view);
-
-// Is told of each, by the thread that runs the episode, in the order in which they happen.
-using Witness = std::function<void(const Impasse&)>;
 
 }  // namespace stampede

@@ -8,9 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "engine/start/interfaces.h"
+#include "engine/start/predicates.h"
+#include "engine/start/task.h"
+#include "engine/start/world_view.h"
 
 namespace stampede {
+
+class CollisionState;
 
 // What is asked of one free body, its other arguments being placed.
 struct PlacementAsked {

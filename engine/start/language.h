@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/start/interfaces.h"
+#include "engine/model/scene.h"
+#include "engine/symbolic/symbols.h"
 
 namespace stampede {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/record/observation.h"
+
 namespace stampede {
 namespace {
 

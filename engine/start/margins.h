@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/start/interfaces.h"
+#include "engine/record/record.h"
+#include "engine/start/predicates.h"
+#include "engine/start/world_view.h"
 
 namespace stampede {
 

@@ -10,15 +10,23 @@
 #include <vector>
 
 #include "engine/model/randomise.h"
-#include "engine/record/observation.h"
-#include "engine/start/impasse.h"
-#include "engine/start/interfaces.h"
+#include "engine/record/observation_choice.h"
+#include "engine/record/record.h"
+#include "engine/start/call_settings.h"
 #include "engine/start/perturbation.h"
+#include "engine/symbolic/symbols.h"
 #include "stampede/environment.h"
 
 namespace stampede {
 
+class Renderer;
+struct Impasse;
+struct PlanOutcome;
+
 using SensorEntries = std::shared_ptr<const std::map<std::string, SensorEntry>>;  // by name; null: none
+
+// Is told of each, by the thread that runs the episode, in the order in which they happen.
+using Witness = std::function<void(const Impasse&)>;
 
 std::string_view to_string(OnFailure value);
 std::optional<OnFailure> on_failure_from(std::string_view text);

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/motion/candidates.h"
+#include "engine/motion/looked.h"
 
 namespace stampede {
 namespace {

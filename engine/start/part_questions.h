@@ -7,9 +7,14 @@
 #include <vector>
 
 #include "engine/motion/part_way.h"
-#include "engine/start/interfaces.h"
+#include "engine/start/world_view.h"
 
 namespace stampede {
+
+class CollisionState;
+struct GraspCandidate;
+struct GraspQuery;
+struct Looked;
 
 // Grasps of an object by the arm from where plans start. Lifetime: refers to the world and `space`.
 GraspQuery grasp_query(const WorldView& view, const CollisionState& space, const std::string& object, RandomKey key);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/start/fact_tracker.h"
-#include "engine/start/interfaces.h"
+#include "engine/start/task.h"
 
 namespace stampede {
 

@@ -4,6 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/model/scene_poses.h"
+#include "engine/sim/world.h"
+#include "engine/start/impasse.h"
+#include "engine/start/predicates.h"
+#include "engine/start/task.h"
 #include "engine/symbolic/pddl.h"
 
 namespace stampede {

@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/motion/looked.h"
 #include "engine/start/options.h"
 #include "engine/start/standing.h"
+#include "engine/start/task.h"
 
 namespace stampede {
+
+class Symbols;
 
 std::string text_of(const Literal& literal);  // `(not (on cube1 cube2))`
 

@@ -4,8 +4,11 @@
 #include <cmath>
 
 #include "engine/model/operation.h"
+#include "engine/sim/collision_state.h"
+#include "engine/sim/world.h"
 #include "engine/start/constraints.h"
 #include "engine/start/joint_placement.h"
+#include "engine/start/world_view.h"
 
 namespace stampede {
 namespace {

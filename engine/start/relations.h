@@ -8,9 +8,13 @@
 #include <vector>
 
 #include "engine/start/fact_tracker.h"
-#include "engine/start/interfaces.h"
+#include "engine/start/predicates.h"
+#include "engine/start/task.h"
 
 namespace stampede {
+
+class CollisionState;
+class WorldView;
 
 // Predicates followed only where they are named (PredicateTraits::only_named) that the task names: in its formulas and
 // functions, and in the domain's actions and derived predicates.

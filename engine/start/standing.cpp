@@ -5,6 +5,7 @@
 
 #include "engine/motion/looked.h"
 #include "engine/sim/overlap.h"
+#include "engine/sim/world.h"
 
 namespace stampede {
 namespace {

@@ -9,6 +9,8 @@
 
 namespace stampede {
 
+class CollisionState;
+
 inline constexpr double kPlacedDepth_m = 0.0011;  // that one body may be in another before all has settled
 
 // What keeps a draw from being a start: two things that lie in each other, or an arm that touches.

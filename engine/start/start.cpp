@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/model/camera.h"
 #include "engine/motion/looked.h"
+#include "engine/sim/world.h"
 #include "engine/start/altered_task.h"
 #include "engine/start/constraints.h"
 #include "engine/start/draft.h"

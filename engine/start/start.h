@@ -5,6 +5,9 @@
 #include <map>
 
 #include "engine/start/options.h"
+#include "engine/start/predicates.h"
+#include "engine/start/task.h"
+#include "engine/start/world_view.h"
 
 namespace stampede {
 

@@ -11,6 +11,7 @@
 #include "engine/geometry/corners.h"
 #include "engine/motion/candidates.h"
 #include "engine/sim/load.h"
+#include "engine/sim/world.h"
 
 namespace stampede {
 namespace {
@@ -41,6 +42,8 @@ double signed_distance(const Vector3& beyond) {
 }
 
 }  // namespace
+
+const Scene& WorldView::scene() const { return world_->scene(); }
 
 WorldView::WorldView(World& world) : world_(&world) {
   const auto& objects = scene().objects;

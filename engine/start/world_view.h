@@ -10,11 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "engine/sim/world.h"
+#include "engine/model/part_ref.h"
+#include "engine/model/scene.h"
 
 namespace stampede {
 
 class FactTracker;
+class World;
 
 // Reads a world; keeps a short history per frame for tests of rest. Contacts are those of the last frame.
 // Throws Error for names that the scene does not have, with the nearest name as cure.
@@ -22,7 +24,7 @@ class WorldView {
  public:
   explicit WorldView(World& world);
   const World& world() const { return *world_; }
-  const Scene& scene() const { return world_->scene(); }
+  const Scene& scene() const;
   const Object& object(std::string_view name) const;
   double time_s() const;
 

@@ -72,6 +72,13 @@ struct Action {
   friend bool operator==(const Action&, const Action&) = default;
 };
 
+struct PlanStep {  // an action with its arguments
+  std::string action;
+  std::vector<std::string> arguments;
+  friend auto operator<=>(const PlanStep&, const PlanStep&) = default;
+};
+using Plan = std::vector<PlanStep>;
+
 // fixed: read once (static). start: a condition on how an episode begins, tested then and never again: no fact.
 enum class PredicateKind { basic, derived, fixed, start };
 

@@ -10,12 +10,6 @@
 
 namespace stampede {
 
-struct PlanStep {
-  std::string action;
-  std::vector<std::string> arguments;
-  friend auto operator<=>(const PlanStep&, const PlanStep&) = default;
-};
-using Plan = std::vector<PlanStep>;
 std::string to_text(const Plan& plan);  // one `(pick block1 table)` a line
 
 struct PlanLimits {

@@ -10,6 +10,7 @@
 #include "engine/model/kinematics.h"
 #include "engine/motion/looked.h"
 #include "engine/sim/overlap.h"
+#include "engine/sim/world.h"
 #include "engine/start/standing.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/source_lines.h"

@@ -1,12 +1,19 @@
 // The commands of the program; commands.cpp is the list.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/base/output_file.h"
-#include "scripting/library/library.h"
 #include "scripting/program/command.h"
+
+namespace stampede {
+class Library;
+struct Roots;
+struct ScriptFile;
+}  // namespace stampede
 
 namespace stampede::program {
 

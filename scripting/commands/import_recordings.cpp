@@ -7,6 +7,7 @@
 #include "db/recording/import_recording.h"
 #include "db/recording/label_file.h"
 #include "db/recording/recording_file.h"
+#include "engine/record/observation.h"
 #include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/import_kinds.h"

@@ -14,6 +14,7 @@
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
 #include "scripting/commands/render_overlay.h"
+#include "scripting/library/library.h"
 #include "scripting/program/json_text.h"
 
 namespace stampede::program {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/record/observation_choice.h"
 #include "scripting/commands/render_output.h"
 #include "scripting/program/command.h"
 #include "scripting/program/video.h"

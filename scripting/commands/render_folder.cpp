@@ -4,6 +4,7 @@
 #include "engine/base/file_name.h"
 #include "engine/base/output_file.h"
 #include "engine/model/masks.h"
+#include "engine/record/observation.h"
 #include "scripting/commands/render_output.h"
 
 namespace stampede::program {

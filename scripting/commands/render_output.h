@@ -11,6 +11,7 @@
 #include "db/catalogue.h"
 #include "db/stored_episode.h"
 #include "engine/base/output_file.h"
+#include "engine/record/observation.h"
 #include "engine/render/canvas.h"
 #include "engine/render/renderer.h"
 #include "scripting/commands/render_shots.h"

@@ -1,6 +1,7 @@
 // Pictures for people: smoothed, with shadows, words beside them.
 #include <algorithm>
 
+#include "engine/record/observation.h"
 #include "scripting/commands/render_output.h"
 
 namespace stampede::program {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/model/masks.h"
+#include "engine/record/observation.h"
 
 namespace stampede::program {
 namespace {

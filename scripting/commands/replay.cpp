@@ -4,6 +4,7 @@
 
 #include "db/catalogue.h"
 #include "engine/episode/runner.h"
+#include "engine/record/observation.h"
 #include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/program/json_text.h"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/episode/runner.h"
+#include "engine/symbolic/task_planner.h"
 #include "scripting/library/library.h"
 #include "scripting/program/command.h"
 

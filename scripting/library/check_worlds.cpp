@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "engine/motion/planner.h"
+#include "engine/record/observation.h"
 #include "engine/record/record.h"
 #include "scripting/library/checks.h"
 #include "scripting/library/rates.h"

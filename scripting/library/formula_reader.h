@@ -9,7 +9,8 @@
 
 #include "engine/base/error.h"
 #include "engine/geometry/value.h"
-#include "engine/start/interfaces.h"
+#include "engine/start/declared.h"
+#include "engine/start/task.h"
 
 namespace stampede {
 

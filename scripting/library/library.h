@@ -10,7 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/language/english.h"
-#include "engine/start/interfaces.h"
+#include "engine/start/declared.h"
 #include "scripting/library/numbers.h"
 
 struct lua_State;

@@ -4,7 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "engine/start/interfaces.h"
+#include "engine/start/predicates.h"
+#include "engine/start/skills.h"
+#include "engine/start/task.h"
 #include "scripting/library/library.h"
 #include "scripting/runtime/job.h"
 

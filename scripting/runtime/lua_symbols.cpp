@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <lua.hpp>
 
+#include "engine/sim/collision_state.h"
 #include "scripting/library/source_lines.h"
 #include "scripting/runtime/sampling_binding.h"
 

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "engine/start/predicates.h"
 #include "scripting/runtime/kept_values.h"
 #include "scripting/runtime/script_state.h"
 

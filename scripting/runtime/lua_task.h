@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/geometry/value.h"
+#include "engine/start/task.h"
 #include "scripting/runtime/assets.h"
 #include "scripting/runtime/job.h"
 #include "scripting/runtime/script_state.h"

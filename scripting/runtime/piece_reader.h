@@ -1,7 +1,8 @@
 // robot:follow { … } and robot:tilt(…): the pieces of a way, read from Lua.
 #pragma once
 
-#include "engine/start/interfaces.h"
+#include "engine/start/robot_call.h"
+#include "engine/start/world_view.h"
 
 struct lua_State;
 

@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "engine/base/error.h"
+#include "engine/sim/world.h"
 #include "scripting/lua/binding.h"
 #include "scripting/runtime/options.h"
 #include "scripting/runtime/piece_reader.h"

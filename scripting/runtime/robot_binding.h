@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/start/interfaces.h"
+#include "engine/start/robot_call.h"
 #include "scripting/library/library.h"
 #include "scripting/runtime/view_binding.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/start/interfaces.h"
+#include "engine/start/predicates.h"
 #include "scripting/runtime/view_binding.h"
 
 namespace stampede {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/start/skills.h"
 #include "scripting/runtime/script_state.h"
 
 namespace stampede {

@@ -7,6 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/base/names.h"
 #include "engine/base/nearest.h"
+#include "engine/sim/world.h"
 #include "engine/start/fact_tracker.h"
 #include "engine/start/part_questions.h"
 #include "scripting/lua/binding.h"

@@ -7,6 +7,7 @@
 #include "engine/base/random.h"
 #include "engine/motion/looked.h"
 #include "engine/start/world_view.h"
+#include "engine/symbolic/symbols.h"
 #include "scripting/library/numbers.h"
 
 struct lua_State;

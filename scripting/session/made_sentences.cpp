@@ -1,5 +1,6 @@
 #include "scripting/session/made_sentences.h"
 
+#include "engine/record/record.h"
 #include "engine/start/language.h"
 
 namespace stampede {

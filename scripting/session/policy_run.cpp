@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file_name.h"
+#include "engine/record/observation.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/policy_json.h"
 #include "scripting/session/prepared_source.h"

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "db/stored_episode.h"
+#include "engine/record/observation.h"
 #include "engine/render/point_cloud.h"
 #include "engine/start/abstract_state.h"
 #include "scripting/session/render_thread.h"

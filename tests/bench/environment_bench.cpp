@@ -18,6 +18,7 @@
 #include "engine/base/random.h"
 #include "engine/episode/runner.h"
 #include "engine/record/record.h"
+#include "engine/sim/world.h"
 #include "scripting/session/session_core.h"
 
 namespace {

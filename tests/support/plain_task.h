@@ -4,6 +4,12 @@
 #include <algorithm>
 
 #include "engine/episode/runner.h"
+#include "engine/motion/candidates.h"
+#include "engine/start/declared.h"
+#include "engine/start/predicates.h"
+#include "engine/start/skills.h"
+#include "engine/start/task.h"
+#include "engine/start/world_view.h"
 #include "tests/support/panda.h"
 
 namespace stampede::plain {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 
+#include "engine/sim/world.h"
 #include "engine/start/fact_tracker.h"
 #include "tests/tasks/run_task.h"
 

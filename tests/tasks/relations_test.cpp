@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/sim/world.h"
 #include "engine/start/language.h"
 #include "engine/start/start.h"
 #include "tests/tasks/run_task.h"

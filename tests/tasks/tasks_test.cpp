@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/episode/runner.h"
+#include "engine/sim/world.h"
 #include "engine/start/fact_tracker.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/library/library.h"

@@ -8,6 +8,7 @@
 #include "engine/base/random.h"
 #include "engine/model/camera.h"
 #include "engine/model/scene_poses.h"
+#include "engine/record/observation.h"
 #include "engine/render/edge_alignment.h"
 #include "engine/render/png.h"
 #include "engine/render/renderer.h"

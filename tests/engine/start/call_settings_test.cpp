@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/base/error.h"
+#include "engine/start/declared.h"
 #include "tests/support/plain_task.h"
 
 using namespace stampede;

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/record/observation.h"
 #include "tests/support/plain_task.h"
 
 using namespace stampede;

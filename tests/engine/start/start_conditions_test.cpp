@@ -2,6 +2,7 @@
 // was asked in vain is counted by its cause.
 #include <catch2/catch.hpp>
 
+#include "engine/start/impasse.h"
 #include "engine/start/part_questions.h"
 #include "engine/start/start.h"
 #include "tests/support/plain_task.h"

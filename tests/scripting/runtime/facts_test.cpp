@@ -1,6 +1,7 @@
 // Symbols beside the raw state: facts, what is known of them, and who may read them.
 #include <catch2/catch.hpp>
 
+#include "engine/sim/world.h"
 #include "engine/start/relations.h"
 #include "scripting/runtime/episode_scripts.h"
 

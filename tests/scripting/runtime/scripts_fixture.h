@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/sim/world.h"
 #include "engine/start/world_view.h"
 #include "scripting/runtime/episode_scripts.h"
 

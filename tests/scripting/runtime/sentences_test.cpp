@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "engine/episode/runner.h"
+#include "engine/sim/world.h"
 #include "engine/start/fact_tracker.h"
 #include "engine/start/language.h"
 #include "scripting/runtime/episode_scripts.h"

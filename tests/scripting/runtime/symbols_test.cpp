@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "engine/sim/collision_state.h"
+#include "engine/sim/world.h"
 #include "scripts_fixture.h"
 
 using namespace stampede;

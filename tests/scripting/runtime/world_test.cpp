@@ -9,6 +9,7 @@
 #include "engine/model/camera.h"
 #include "engine/model/masks.h"
 #include "engine/model/randomise.h"
+#include "engine/record/observation.h"
 #include "scripting/runtime/evaluate.h"
 #include "scripting/runtime/scene_builder.h"
 #include "scripts_fixture.h"
