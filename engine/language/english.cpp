@@ -21,8 +21,7 @@ std::vector<English::Stem> English::stems(const std::string& word) const {
 }
 
 bool English::is_done(const std::string& word) const {
-  return std::any_of(endings.begin(), endings.end(),
-                     [&](const Ending& ending) { return ending.done && word.ends_with(ending.from); });
+  return std::ranges::any_of(endings, [&](const Ending& ending) { return ending.done && word.ends_with(ending.from); });
 }
 
 void English::add(const std::string& word, const std::string& sense, WordKind kind) {

@@ -35,17 +35,16 @@ inline constexpr std::array<std::string_view, 11> kWordKinds = {
 
 // What rules ask of a word beside its kind; worlds/words.lua says which words these are, and what for.
 inline constexpr std::array kWordClasses = std::to_array<std::string_view>(
-    {"above",      "after",    "again",    "air",      "all",          "already", "article",      "assembling",
-     "away",       "back",     "be",       "before",   "belonging",    "both",    "built",        "by",
-     "demanding",  "excuse",   "fetching", "finger",   "from",         "general", "general_type", "getting",
-     "given",      "giving",   "going",    "grasping", "grip",         "hanging", "helping",      "holding",
-     "implying",   "in_state", "inside",   "instead",  "into",         "join",    "keeping",      "lasting",
-     "leaving",    "located",  "modal",    "motion",   "noun_follows", "of",      "off",          "on",
-     "one",        "openness", "other",    "others",   "painted",      "polite",  "putting",      "putting_in",
-     "putting_up", "reaching", "relative", "saying",   "seizing",      "several", "showing",      "shut",
-     "sided",      "sparing",  "standing", "state",    "stating",      "stative", "swinging",     "switching",
-     "table",      "taking",   "telling",  "towards",  "turning",      "until",   "upon",         "verb_follows",
-     "way",        "where",    "wishing",  "with"});
+    {"above",     "after",   "again",      "air",      "all",          "already",      "article", "assembling",
+     "away",      "back",    "be",         "before",   "belonging",    "both",         "built",   "by",
+     "demanding", "excuse",  "from",       "general",  "general_type", "getting",      "given",   "giving",
+     "going",     "grip",    "hanging",    "holding",  "implying",     "in_state",     "inside",  "instead",
+     "into",      "join",    "keeping",    "lasting",  "leaving",      "located",      "modal",   "noun_follows",
+     "of",        "off",     "on",         "one",      "openness",     "other",        "others",  "painted",
+     "polite",    "putting", "putting_up", "relative", "several",      "shut",         "sided",   "sparing",
+     "standing",  "state",   "stating",    "stative",  "swinging",     "switching",    "table",   "taking",
+     "telling",   "towards", "turning",    "until",    "upon",         "verb_follows", "way",     "where",
+     "wishing",   "with"});
 
 // One of them by name; another name does not compile.
 class WordClass {
@@ -59,8 +58,6 @@ class WordClass {
  private:
   std::size_t index_ = 0;
 };
-
-inline constexpr int kLastRank = 99;
 
 struct English {
   struct Entry {
@@ -94,7 +91,7 @@ struct English {
   std::map<std::string, std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>>> phrases;
   std::map<std::string, std::bitset<kWordClasses.size()>, std::less<>> classes;
   std::vector<LightVerb> light_verbs;
-  std::map<std::string, int> ranks;                          // of turns: second is 2, last is kLastRank
+  std::map<std::string, int> ranks;                          // of turns: second is 2, last is 99
   std::map<std::string, std::string> prepositions;           // what a thing is after it: to, from, of, with …
   std::map<std::string, std::set<std::string>> particles;    // of a verb: switch on
   std::map<std::string, std::string> directions, opposites;  // of verbs: lift is up; open and close

@@ -38,8 +38,13 @@ class Lexicon {
 
  private:
   using Entries = std::vector<English::Entry>;
+  struct Known {  // what a word may be
+    std::string sense;
+    WordKind kind;
+    bool plural;
+  };
   const Entries* exactly(const std::string& word) const;
-  const Entries* entries(const std::string& word, bool& plural, WordKind wanted) const;
+  std::vector<Known> known(const std::string& word) const;  // itself first, then what it is a form of
   std::vector<WordKind> due(const std::string& text, const std::vector<Word>& before, char punctuation,
                             const std::string& next) const;
   Word choose(const std::string& text, const std::vector<Word>& before, char punctuation,

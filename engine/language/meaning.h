@@ -2,12 +2,14 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "engine/language/lexicon.h"
-#include "engine/language/skill_sense.h"
+#include "engine/model/scene.h"
+#include "engine/start/declared.h"
 #include "engine/start/task.h"
 
 namespace stampede {
@@ -17,7 +19,6 @@ struct ThingRoles {
   bool wanted = false;                       // they handle it, or a part of it
   bool handled = false;                      // a step is about it: pressed, opened, carried …
   bool moved = false;                        // it is carried somewhere
-  bool accessory = false;                    // a part that helps: the handle of what is opened
   bool tool = false;                         // with which something else is handled
   bool source = false, destination = false;  // of what is moved
   ThingRoles& operator|=(const ThingRoles& other);
@@ -48,6 +49,21 @@ struct ToldStep {
   std::vector<std::string> arguments;
 };
 
+// What a skill does with its arguments, as sentences tell it: read once from its effects, its label and `moves`.
+struct SkillSense {
+  bool takes = false;               // what it is about is in the hand then
+  bool raises = false;              // it ends in the air
+  std::size_t handled = 0;          // the parameter that it is about
+  std::optional<std::size_t> tool;  // that it handles it with: held before and after, or put down to serve
+  std::set<std::size_t> moved, places;
+  std::string verb;                                   // the sense of its first
+  std::map<std::size_t, std::set<std::string>> ways;  // how sentences say that it is at a parameter's place: in, on
+  std::set<std::string> directions;                   // in which something moves: up, out, open …
+};
+// Of the skill's first action. `held`: predicates of what the pads grasp.
+SkillSense skill_sense(const SkillInfo& skill, const Domain& domain, const std::set<std::string>& held,
+                       std::shared_ptr<const English> english);
+
 struct Meaning {
   std::string task, variation;          // of a skill's or predicate's label: its name, and nothing
   std::vector<std::string> own;         // the author's sentences
@@ -66,7 +82,25 @@ struct Meaning {
   const SkillSense& sense_of(const ToldStep& step) const { return skills.at(step.skill); }
 };
 
+bool share_a_noun(const SpokenThing& a, const SpokenThing& b);
 // `whole` is the thing or what it is a part of.
 bool is_part_of(const std::string& name, const std::string& whole);
+
+// The things of a start; their words go into the meaning's lexicon. What `others`, further starts of the variation,
+// have otherwise is said of none.
+void read_things(const Domain& domain, const Scene& scene, const std::vector<Scene>& others, Meaning& meaning);
+
+// What other starts call otherwise is called alike, in `facts` too.
+void name_alike(const std::vector<Scene>& others, Meaning& meaning);
+
+// What is to be done, from a state with these facts; what a plan does because of `assumed`, which nobody can see, is
+// not said.
+struct Deed {
+  const Facts& facts;
+  const Facts& assumed;
+  const Formula& goal;
+};
+// Of the goal and of meaning.steps, whose skills must be there.
+void read_roles(const Deed& deed, Meaning& meaning);
 
 }  // namespace stampede

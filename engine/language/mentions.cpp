@@ -9,7 +9,6 @@ namespace {
 // `the blue one`, not `the one cup`
 bool is_pronoun_one(const std::vector<Word>& words, std::size_t i) {
   if (!words[i].is("one")) return false;
-  if (words[i].is("several")) return true;
   if (i == 0 || !words[i].follows()) return false;
   if (i + 1 < words.size() && words[i + 1].follows() &&
       (words[i + 1].kind == WordKind::noun || words[i + 1].kind == WordKind::colour ||
@@ -21,7 +20,7 @@ bool is_pronoun_one(const std::vector<Word>& words, std::size_t i) {
 }
 
 std::optional<int> number_of(const Word& word) {
-  const bool digits = std::all_of(word.sense.begin(), word.sense.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool digits = std::ranges::all_of(word.sense, [](char c) { return c >= '0' && c <= '9'; });
   if (word.kind != WordKind::number || word.sense.size() > 4 || !digits) return std::nullopt;
   return std::stoi(word.sense);
 }
@@ -38,7 +37,7 @@ class MentionReader {
   void read() {
     std::size_t segment = 0;
     for (std::size_t i = 0; i < words_.size(); ++i) {
-      while (segment + 1 < reading_.segments.size() && i >= reading_.segments[segment].end) ++segment, after_.reset();
+      while (segment + 1 < reading_.segments.size() && i >= reading_.segments[segment].end) ++segment, drop();
       step(i, segment);
     }
     for (Mention& mention : mentions_) resolve(mention);
@@ -59,8 +58,7 @@ class MentionReader {
     if (word.kind == WordKind::noun || is_pronoun_one(words_, i) || word.is("others")) return name(i, segment);
     switch (word.kind) {
       case WordKind::colour:
-        return mentions_.empty() || !describes_last(i) ? begin_at(i).colours.push_back(word.sense)
-                                                       : mentions_.back().colours.push_back(word.sense);
+        return begin_at(i).colours.push_back(word.sense);
       case WordKind::place:
         if (!says_where_last_is(i)) return begin_at(i).places.push_back(word.sense);
         mentions_.back().places.push_back(word.sense);  // `the drawer at the bottom`
@@ -69,7 +67,7 @@ class MentionReader {
       case WordKind::adjective:
         return begin_at(i).adjectives.push_back(word.sense);
       case WordKind::number:
-        if (!is_name(i)) begin_at(i).count = number_of(word);
+        begin_at(i).count = number_of(word);
         return;
       default:
         break;
@@ -104,7 +102,7 @@ class MentionReader {
     const bool more = word.kind == WordKind::noun && !word.is("others") && i + 1 < words_.size() &&
                       words_[i + 1].follows() && words_[i + 1].kind == WordKind::noun && !word.plural;
     if (more)
-      open_.modifiers.insert(word.sense);
+      open_.modifiers.push_back(word.sense);
     else
       finish(i, segment);
   }
@@ -149,7 +147,7 @@ class MentionReader {
       if (verb) mention.verb = words_[*verb].sense;
     };
     mention.verb_at = segment.verb;
-    if (is_possessor(mention)) return as("of");
+    if (reading_.is_possessor(mention)) return as("of");
     if (mention.partitive && reading_.at(mention.after, "of")) return as("part");
     if (reading_.at(mention.after, "with") && i > 0 && belongs(mention, mentions_[i - 1])) return as("of");
     if (verb_before && words_[*segment.verb].is("assembling") && reading_.at(mention.after, "from"))
@@ -165,37 +163,7 @@ class MentionReader {
     // `solve the puzzle`: of a verb that only the author explains
     if (mention.first > segment.begin && words_[mention.first - 1].kind == WordKind::own)
       return as("object", mention.first - 1);
-    const auto verb = last_verb(i);  // `the blocks are to form a pyramid`
-    if (verb && !segment.verb) {
-      mention.verb_at = verb;
-      return as("object", verb);
-    }
-    if (i > 0 && is_listed(segment)) {  // `the bowl, the fork and the glass`
-      mention.part = mentions_[i - 1].part;
-      mention.verb = mentions_[i - 1].verb;
-      return;
-    }
     as("subject", next_verb(mention, segment));
-  }
-
-  bool is_possessor(const Mention& mention) const {
-    return mention.head + 1 < words_.size() && words_[mention.head + 1].text == "'s";
-  }
-
-  bool is_listed(const Segment& segment) const {
-    if (segment.begin == 0 || words_[segment.begin].before == ':' || words_[segment.begin].before == ';') return false;
-    for (std::size_t k = segment.begin; k < segment.end; ++k)
-      if (words_[k].kind == WordKind::verb || words_[k].is("be")) return false;
-    return true;
-  }
-
-  // Since the last thing that was named.
-  std::optional<std::size_t> last_verb(std::size_t i) const {
-    const Mention& mention = mentions_[i];
-    if (i == 0 || mentions_[i - 1].segment != mention.segment) return std::nullopt;
-    for (std::size_t k = mention.first; k > mentions_[i - 1].head; --k)
-      if (words_[k - 1].kind == WordKind::verb) return k - 1;
-    return std::nullopt;
   }
 
   std::optional<std::size_t> next_verb(const Mention& mention, const Segment& segment) const {
@@ -212,16 +180,11 @@ class MentionReader {
            found->second.contains(words_[i].text);
   }
 
-  // `block 2`, `number two`: a name, and no count
-  bool is_name(std::size_t i) const {
-    return i > 0 && words_[i].follows() && words_[i - 1].kind == WordKind::noun && !words_[i - 1].plural &&
-           (reading_.ends_at(i + 1) || words_[i + 1].kind == WordKind::grammar || words_[i + 1].kind == WordKind::verb);
-  }
-
   // `the cube in the drawer should …`, `bring the cube in the drawer to …`: where it is, not where it goes
   bool says_where(std::size_t i) const {
     const Mention& mention = mentions_[i];
-    const std::size_t owner = i > 1 && is_possessor(mentions_[i - 1]) ? i - 2 : i - 1;  // `on the cabinet's shelf`
+    const std::size_t owner =
+        i > 1 && reading_.is_possessor(mentions_[i - 1]) ? i - 2 : i - 1;  // `on the cabinet's shelf`
     const Mention& last = mentions_[owner];
     if (last.segment != mention.segment || last.after || !reading_.at(mention.after, "located") ||
         *mention.after != last.head + 1)
@@ -248,8 +211,8 @@ class MentionReader {
 
   template <typename Test>
   static bool any_pair(const Mention& a, const Mention& b, const Test& test) {
-    return std::any_of(a.things.begin(), a.things.end(), [&](const std::string& one) {
-      return std::any_of(b.things.begin(), b.things.end(), [&](const std::string& other) { return test(one, other); });
+    return std::ranges::any_of(a.things, [&](const std::string& one) {
+      return std::ranges::any_of(b.things, [&](const std::string& other) { return test(one, other); });
     });
   }
 
@@ -260,23 +223,18 @@ class MentionReader {
     return reading_.ends_at(i + 1) || words_[i + 1].kind == WordKind::grammar || words_[i + 1].kind == WordKind::order;
   }
 
-  // `blocks that are red`, `the box is blue`
-  bool describes_last(std::size_t i) const { return i > 0 && (words_[i - 1].is("be") || words_[i - 1].is("painted")); }
-
   // Things whose names fit: those that the noun names, or else those of which it is a word at all.
   void resolve(Mention& mention) const {
     const auto unfit = [&](const SpokenThing& thing, const std::string& word) {
-      return !thing.words.contains(word) && std::any_of(meaning_.things.begin(), meaning_.things.end(),
-                                                        [&](const auto& one) { return one.words.contains(word); });
+      return !thing.words.contains(word) &&
+             std::ranges::any_of(meaning_.things, [&](const auto& one) { return one.words.contains(word); });
     };
     for (const bool by_head : {true, false}) {
       mention.by_head = by_head;
       for (const SpokenThing& thing : meaning_.things) {
         if (!(by_head ? thing.heads : thing.words).contains(mention.sense)) continue;
         const auto wrong = [&](const std::string& word) { return unfit(thing, word); };
-        if (std::any_of(mention.modifiers.begin(), mention.modifiers.end(), wrong) ||
-            std::any_of(mention.places.begin(), mention.places.end(), wrong))
-          continue;
+        if (std::ranges::any_of(mention.modifiers, wrong) || std::ranges::any_of(mention.places, wrong)) continue;
         mention.things.push_back(thing.name);
         mention.roles |= thing.roles;
       }
@@ -288,7 +246,7 @@ class MentionReader {
   void narrow(Mention& part, const Mention& whole) const {
     std::vector<std::string> of_it;
     for (const std::string& name : part.things)
-      if (std::any_of(whole.things.begin(), whole.things.end(), [&](const auto& one) { return is_part_of(name, one); }))
+      if (std::ranges::any_of(whole.things, [&](const auto& one) { return is_part_of(name, one); }))
         of_it.push_back(name);
     if (of_it.empty()) return;
     part.things = std::move(of_it);

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace stampede {
 struct Mention {
   std::size_t first = 0, head = 0;  // words, from the first of the phrase to its noun
   std::string sense;                // of the noun; of `one`: the noun before it
-  std::set<std::string> modifiers;  // further nouns: knife block
   std::vector<std::string> colours, places, adjectives;
+  std::vector<std::string> modifiers;  // further nouns: `knife` block
   std::optional<int> count;
   std::optional<int> total;              // `two of the three blocks`: three
   std::optional<std::size_t> placed_by;  // the word after it that says where it is: `the door on the left`
@@ -44,7 +45,6 @@ struct Segment {
   std::optional<std::size_t> intro = {};  // the joining word: after, before, until …
   std::optional<std::size_t> verb = {};   // the word that says what to do
   bool negated = false, excluding = false;
-  bool holds(std::size_t word) const { return word >= begin && word < end; }
 };
 
 struct Reading {
@@ -53,9 +53,12 @@ struct Reading {
   std::vector<Segment> segments;
   std::vector<std::size_t> in_time;  // segments in the order in which they happen: `b after a` is a, b
 
+  std::span<const Word> words_of(const Segment& segment) const;
+  std::span<const Mention> mentions_of(const Segment& segment) const;
   bool any(const Segment& segment, WordClass of) const;  // of its words
   bool at(const std::optional<std::size_t>& word, WordClass of) const { return word && words[*word].is(of); }
   const std::string& verb_of(const Segment& segment) const;  // its sense; empty: it has none
+  bool is_possessor(const Mention& mention) const;           // `'s` follows
   bool ends_at(std::size_t word) const;                      // a stretch, with the word before
 };
 

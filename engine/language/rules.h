@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "engine/language/sentence.h"
 
@@ -42,11 +43,17 @@ using Grain = LanguageGrain;
 inline std::string quoted(const std::string& word) { return "'" + word + "'"; }
 using Fault = std::optional<std::string>;  // what is wrong, for people: which word, which thing; nothing: all is well
 
-// One way in which a sentence can be wrong. Each is needed: without it some wrong sentence of the tests would pass.
+// One way in which a sentence can be wrong: as a whole, or in a stretch or in what it mentions, where neither the
+// author says the same nor it has no part in this. Each is needed: without it some wrong sentence of the tests would
+// pass.
 struct Rule {
   Rejection reason;
   std::string_view name;
-  Fault (*fault)(const Sentence& sentence);
+  std::variant<Fault (*)(const Sentence&), Fault (*)(const Sentence&, const Segment&),
+               Fault (*)(const Sentence&, const Mention&)>
+      fault;
+  bool of_spared = false;  // it holds also of what is spared
+  Fault broken_by(const Sentence& sentence) const;
 };
 std::span<const Rule> word_rules();   // of words, whatever they name
 std::span<const Rule> thing_rules();  // of what is named: it is there, and has what is said of it

@@ -19,7 +19,7 @@ Sentence::Sentence(std::string said, const Meaning& meant, const Claims& claimed
 }
 
 std::set<std::size_t> Sentence::beside() const {
-  std::set<std::size_t> words = totals_in(reading);
+  std::set<std::size_t> words;
   for (const Segment& segment : reading.segments)
     for (std::size_t i = segment.begin; i < segment.end && spares(segment); ++i) words.insert(i);
   return words;
@@ -27,29 +27,15 @@ std::set<std::size_t> Sentence::beside() const {
 
 bool Sentence::spares_others(const Segment& segment) const {
   return reading.any(segment, "other") && !claims.others &&
-         std::none_of(reading.mentions.begin(), reading.mentions.end(),
-                      [&](const Mention& mention) { return segment.holds(mention.head) && !mention.other; });
-}
-
-bool Sentence::spares_idle(const Segment& segment) const {
-  bool any = false;
-  for (const Mention& mention : reading.mentions) {
-    if (!segment.holds(mention.head)) continue;
-    if (mention.roles.wanted) return false;
-    any |= !mention.things.empty();
-  }
-  return any && !segment.negated;
+         std::ranges::all_of(reading.mentions_of(segment), &Mention::other);
 }
 
 bool Sentence::leaves_idle(const Segment& segment) const {
-  const auto first = std::find_if(reading.mentions.begin(), reading.mentions.end(),
-                                  [&](const Mention& mention) { return segment.holds(mention.head); });
-  if (segment.negated || first == reading.mentions.end() || first->after || first->things.empty() ||
-      first->roles.wanted)
+  const std::span<const Mention> named = reading.mentions_of(segment);
+  if (segment.negated || named.empty() || named[0].after || named[0].things.empty() || named[0].roles.wanted)
     return false;
-  bool state = false;
-  for (std::size_t i = first->head + 1; i < segment.end; ++i) state |= reading.words[i].is("shut");
-  return reading.any(segment, "keeping") || (state && segment.verb.value_or(segment.end) > first->head);
+  return reading.any(segment, "keeping") ||
+         (reading.any(segment, "shut") && segment.verb.value_or(segment.end) > named[0].head);
 }
 
 // `it should no longer be on its stand`, `the door must not stay open`, `in the block instead of on the board`: what
@@ -69,33 +55,13 @@ bool Sentence::denies_start(const Segment& segment) const {
     if (!claims.directions.contains(opposite->second)) return false;
     state = true;
   }
-  for (const Mention& mention : reading.mentions) {
-    if (!segment.holds(mention.head) || mention.head < from) continue;
+  for (const Mention& mention : reading.mentions_of(segment)) {
+    if (mention.head < from) continue;
     if (state && !mention.after && mention.roles.wanted) continue;
     if (mention.roles.destination || !mention.roles.source) return false;
     place = true;
   }
   return (state || place) && (instead || reading.any(segment, "stative"));
-}
-
-bool Sentence::leads(const Segment& segment) const {
-  return std::any_of(reading.segments.begin(), reading.segments.end(),
-                     [&](const Segment& one) { return one.verb && one.begin > segment.begin; });
-}
-
-bool Sentence::leads_on(const Segment& segment) const {
-  if (!leads(segment) || !reading.at(segment.verb, "seizing")) return false;
-  bool by_handle = false, own = false, handle = false;
-  for (const Mention& mention : reading.mentions) {
-    if (!segment.holds(mention.head)) continue;
-    const bool is_handle = head(mention).is("grip") && (mention.things.empty() || mention.roles.wanted);
-    const bool object = mention.part == "object" && mention.verb == reading.verb_of(segment);
-    if (object && is_handle) return true;
-    handle |= is_handle;
-    by_handle |= is_handle && after(mention, "by");
-    own |= object && mention.roles.handled;
-  }
-  return reading.at(segment.verb, "reaching") ? own || handle : own && by_handle && !meaning.carries();
 }
 
 bool Sentence::lifts() const {
@@ -104,13 +70,9 @@ bool Sentence::lifts() const {
 }
 
 bool Sentence::swings() const {
-  return std::any_of(meaning.skills.begin(), meaning.skills.end(), [](const auto& one) {
+  return std::ranges::any_of(meaning.skills, [](const auto& one) {
     return one.second.directions.contains("open") || one.second.directions.contains("close");
   });
-}
-
-std::set<std::string> Sentence::directions() const {
-  return directions_in(reading, english, [this](const Segment& segment) { return denies_start(segment); });
 }
 
 bool Sentence::stands_on_table(const Mention& mention) const {
@@ -131,12 +93,10 @@ std::pair<int, int> Sentence::all_and_handled(const std::string& sense) const {
   return {all, handled};
 }
 
-bool Sentence::names_as(std::size_t own) const {
-  const auto ours_any = [&](const auto& test) {
-    return std::any_of(reading.mentions.begin(), reading.mentions.end(), test);
-  };
+bool Sentence::names_as(const Reading& own) const {
+  const auto ours_any = [&](const auto& test) { return std::ranges::any_of(reading.mentions, test); };
   bool scene = false;
-  for (const Mention& one : claims.own[own].mentions) {
+  for (const Mention& one : own.mentions) {
     if (one.part == "to" && one.things.empty() && !ours_any([&](const Mention& ours) {  // `into the marked area`
           return ours.sense == one.sense || (ours.part == "to" && ours.roles.destination);
         }))
@@ -144,60 +104,49 @@ bool Sentence::names_as(std::size_t own) const {
     if (!one.roles.wanted) continue;
     scene = true;
     const bool named = ours_any([&](const Mention& ours) {
-      return std::any_of(ours.things.begin(), ours.things.end(), [&](const std::string& name) {
-        return std::find(one.things.begin(), one.things.end(), name) != one.things.end();
+      return std::ranges::any_of(ours.things, [&](const std::string& name) {
+        return std::ranges::find(one.things, name) != one.things.end();
       });
     });
     if (!named) return false;
   }
   if (scene) return true;
   // It names nothing by the scene's words: `bin the paper`.
-  const auto& theirs = claims.own[own].mentions;
-  return !theirs.empty() && std::all_of(theirs.begin(), theirs.end(), [&](const Mention& one) {
+  const auto& theirs = own.mentions;
+  return !theirs.empty() && std::ranges::all_of(theirs, [&](const Mention& one) {
     return ours_any([&](const Mention& ours) { return ours.sense == one.sense; });
   });
 }
 
-// The table goes without saying.
-std::vector<std::string> Sentence::goal_things() const {
-  std::vector<std::string> names;
-  for (const SpokenThing& one : meaning.things) {
-    const bool table = std::any_of(one.heads.begin(), one.heads.end(),
-                                   [&](const std::string& head) { return english.has(head, "table"); });
-    if (meaning.carries() ? one.roles.moved || (one.roles.destination && !table) : one.roles.handled)
-      names.push_back(one.name);
-  }
-  return names;
-}
-
 bool Sentence::is_named(const std::string& name) const {
-  return std::any_of(reading.mentions.begin(), reading.mentions.end(), [&](const Mention& mention) {
-    return std::any_of(mention.things.begin(), mention.things.end(), [&](const std::string& one) {
+  return std::ranges::any_of(reading.mentions, [&](const Mention& mention) {
+    return std::ranges::any_of(mention.things, [&](const std::string& one) {
       return one == name || is_part_of(one, name) || is_part_of(name, one);
     });
   });
 }
 
 // `hang up the picture`, `plug in the charger`: where there is one place for it
-bool Sentence::is_implied(const std::string& name) const {
-  const SpokenThing* place = meaning.thing(name);
-  const bool alone = std::none_of(meaning.things.begin(), meaning.things.end(), [&](const SpokenThing& other) {
-    return other.name != name && !is_part_of(other.name, name) && !is_part_of(name, other.name) &&
-           std::any_of(other.heads.begin(), other.heads.end(),
-                       [&](const std::string& head) { return place->heads.contains(head); });
+bool Sentence::is_implied(const SpokenThing& place) const {
+  const bool alone = std::ranges::none_of(meaning.things, [&](const SpokenThing& other) {
+    return other.name != place.name && !is_part_of(other.name, place.name) && !is_part_of(place.name, other.name) &&
+           share_a_noun(other, place);
   });
   for (const Segment& segment : reading.segments)
     for (const ToldStep& step : meaning.steps)
       if (alone && reading.at(segment.verb, "implying") && meaning.sense_of(step).verb == reading.verb_of(segment))
         for (std::size_t i = 1; i < step.arguments.size(); ++i)
-          if (step.arguments[i] == name || is_part_of(step.arguments[i], name)) return true;
+          if (step.arguments[i] == place.name || is_part_of(step.arguments[i], place.name)) return true;
   return false;
 }
 
-bool Sentence::names_all() const {
-  const std::vector<std::string> names = goal_things();
-  return !names.empty() &&
-         std::all_of(names.begin(), names.end(), [&](const auto& name) { return is_named(name) || is_implied(name); });
+std::optional<std::string> Sentence::unnamed() const {
+  for (const SpokenThing& one : meaning.things) {
+    const bool table = std::ranges::any_of(one.heads, [&](const auto& head) { return english.has(head, "table"); });
+    const bool wanted = meaning.carries() ? one.roles.moved || (one.roles.destination && !table) : one.roles.handled;
+    if (wanted && !is_named(one.name) && !is_implied(one)) return one.name;
+  }
+  return {};
 }
 
 }  // namespace stampede

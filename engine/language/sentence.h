@@ -23,20 +23,11 @@ class Sentence {
 
   // The author says so.
   bool vouched(const Segment& segment) const { return vouched_[number(segment)]; }
-  bool vouched(const Mention& mention) const { return vouched(segment(mention)); }
   // What is said there holds anyway: it has no part in this.
   bool spares(const Segment& segment) const { return spares_[number(segment)]; }
-  bool spares_others(const Segment& segment) const;  // `and no others`, `leave the other blocks alone`
-  bool spares_idle(const Segment& segment) const;    // `spare the tomatoes`: things that have no part in it
-  bool leaves_idle(const Segment& segment) const;    // `leave the chicken where it is`, `the left one shut`
-  bool denies_start(const Segment& segment) const;   // `it should no longer be on its stand`
-  // `take the handle`, `go to the button`, `take the seat by its grip`: on the way to what is done
-  bool leads_on(const Segment& segment) const;
-  bool leads(const Segment& segment) const;  // there is a verb in a later one
 
   bool lifts() const;   // the plan ends in the air, above the table
   bool swings() const;  // what is opened or closed has something to take hold of
-  std::set<std::string> directions() const;
   const Word* verb(const Mention& mention) const {
     return mention.verb_at ? &reading.words[*mention.verb_at] : nullptr;
   }
@@ -46,16 +37,19 @@ class Sentence {
 
   // How many there are of what a noun names, and how many of these are handled.
   std::pair<int, int> all_and_handled(const std::string& sense) const;
-  bool names_as(std::size_t own) const;  // all that that sentence of the author names of what is wanted
-  bool names_all() const;                // what is carried, and to where; else what is handled
-  std::vector<std::string> goal_things() const;
-  bool is_named(const std::string& name) const;
+  bool names_as(const Reading& own) const;  // all that a sentence of the author names of what is wanted
+  // Of what is carried, and to where, or else handled, the first that is not named; the table goes without saying.
+  std::optional<std::string> unnamed() const;
 
  private:
   std::size_t number(const Segment& segment) const {
     return static_cast<std::size_t>(&segment - reading.segments.data());
   }
-  bool is_implied(const std::string& name) const;
+  bool is_named(const std::string& name) const;
+  bool is_implied(const SpokenThing& place) const;
+  bool spares_others(const Segment& segment) const;  // `and no others`, `leave the other blocks alone`
+  bool leaves_idle(const Segment& segment) const;    // `leave the chicken where it is`, `the left one shut`
+  bool denies_start(const Segment& segment) const;   // `it should no longer be on its stand`
 
   std::vector<bool> vouched_, spares_;  // by segment: every rule asks
 };

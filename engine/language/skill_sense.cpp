@@ -1,7 +1,6 @@
-#include "engine/language/skill_sense.h"
-
 #include <algorithm>
-#include <map>
+
+#include "engine/language/meaning.h"
 
 namespace stampede {
 namespace {
@@ -37,9 +36,8 @@ class SenseReader {
     read_effects();
     find_parameters();
     sense_.takes = taken_.contains(name(sense_.handled));
-    sense_.puts = put_.contains(name(sense_.handled));
-    sense_.raises = !sense_.puts && (sense_.takes || before_.contains(name(sense_.handled)));
-    sense_.of_parts = !sense_.puts && !(sense_.takes && skill_.parameters.size() > 2);
+    puts_ = put_.contains(name(sense_.handled));
+    sense_.raises = !puts_ && (sense_.takes || before_.contains(name(sense_.handled)));
     find_places();
     find_ways();
     read_verbs();
@@ -48,9 +46,9 @@ class SenseReader {
   }
 
  private:
-  const std::string& name(int parameter) const { return skill_.parameters[static_cast<std::size_t>(parameter)].name; }
+  const std::string& name(std::size_t parameter) const { return skill_.parameters[parameter].name; }
   bool is_moved(const std::string& parameter) const {
-    return std::find(skill_.moves.begin(), skill_.moves.end(), parameter) != skill_.moves.end();
+    return std::ranges::find(skill_.moves, parameter) != skill_.moves.end();
   }
 
   void read_effects() {
@@ -68,8 +66,8 @@ class SenseReader {
 
   void find_parameters() {
     bool found = false;
-    for (int i = 0; i < static_cast<int>(skill_.parameters.size()); ++i) {
-      if (skill_.parameters[static_cast<std::size_t>(i)].type == "hand") continue;
+    for (std::size_t i = 0; i < skill_.parameters.size(); ++i) {
+      if (skill_.parameters[i].type == "hand") continue;
       if (is_moved(name(i))) sense_.moved.insert(i);
       if (before_.contains(name(i)) && !put_.contains(name(i)) && !is_moved(name(i))) sense_.tool = i;
       const bool about = skill_.moves.empty() ? sense_.tool != i : is_moved(name(i));
@@ -86,12 +84,14 @@ class SenseReader {
       first.clear();
     }
     int others = 0;
-    for (int i = 0; i < static_cast<int>(skill_.parameters.size()); ++i) {
-      if (i == sense_.handled || skill_.parameters[static_cast<std::size_t>(i)].type == "hand") continue;
+    for (std::size_t i = 0; i < skill_.parameters.size(); ++i) {
+      if (i == sense_.handled || skill_.parameters[i].type == "hand") continue;
       ++others;
-      if (!sense_.takes && (!sense_.puts || first.contains(name(i)))) sense_.places.insert(i);
+      if (sense_.takes || (puts_ && !first.contains(name(i)))) continue;
+      sense_.places.insert(i);
+      if (puts_) sense_.ways[i];  // none, where neither its label nor its effect says one: beside
     }
-    if (sense_.puts && others > 1) sense_.tool = sense_.handled;
+    if (puts_ && others > 1) sense_.tool = sense_.handled;
   }
 
   // As its label says, and those of what becomes true.
@@ -105,11 +105,11 @@ class SenseReader {
         if (const auto found = ways.find(predicate->parameters[i].name); found != ways.end())
           add_way(effect->terms[i].name, found->second);
     }
-    for (const Word& word : lexicon_.read(skill_.label)) sense_.leaves |= word.is("away");
+    for (const Word& word : lexicon_.read(skill_.label)) leaves_ |= word.is("away");
   }
 
   void add_way(const std::string& parameter, const std::string& way) {
-    for (int i = 0; i < static_cast<int>(skill_.parameters.size()); ++i)
+    for (std::size_t i = 0; i < skill_.parameters.size(); ++i)
       if (name(i) == parameter) sense_.ways[i].insert(way);
   }
 
@@ -123,13 +123,12 @@ class SenseReader {
   }
 
   void find_directions() {
-    const bool in =
-        std::any_of(sense_.ways.begin(), sense_.ways.end(), [](const auto& one) { return one.second.contains("in"); });
+    const bool in = std::ranges::any_of(sense_.ways, [](const auto& one) { return one.second.contains("in"); });
     if (sense_.raises) sense_.directions.insert("up");
     if (sense_.takes) sense_.directions.insert("out");
-    if (sense_.takes && sense_.leaves) sense_.directions.insert("remove");
-    if (sense_.puts && in) sense_.directions.insert({"in", "insert"});
-    if (sense_.puts && !in) sense_.directions.insert("down");
+    if (sense_.takes && leaves_) sense_.directions.insert("remove");
+    if (puts_ && in) sense_.directions.insert({"in", "insert"});
+    if (puts_ && !in) sense_.directions.insert("down");
   }
 
   const SkillInfo& skill_;
@@ -137,6 +136,8 @@ class SenseReader {
   const std::set<std::string>& held_;
   const Lexicon lexicon_;
   SkillSense sense_;
+  bool puts_ = false;                           // what it is about is no longer in the hand then
+  bool leaves_ = false;                         // it is taken out of something, or off it
   std::set<std::string> before_, taken_, put_;  // parameters that are held before, after, no longer
   std::vector<const Effect*> made_;             // what becomes true
 };

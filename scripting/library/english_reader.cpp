@@ -77,16 +77,18 @@ class EnglishReader {
                                      : English::Stem{word.items[0].text, word["plural"].boolean};
   }
 
+  // `hold = { "take hold of", "get hold of" }`: both are read as it.
   void phrases(const Value& value) {
-    for (const auto& [from, to] : value.fields) {
-      std::vector<std::string> words = words_in(from);
-      if (words.empty()) continue;
-      auto& list = english_.phrases[words.front()];
-      std::erase_if(list, [&](const auto& one) { return one.first == words; });
-      list.emplace_back(std::move(words), words_in(to.text));
-      std::stable_sort(list.begin(), list.end(),
-                       [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
-    }
+    for (const auto& [to, from] : value.fields)
+      for (const Value& phrase : from.is_text() ? std::vector<Value>{from} : from.items) {
+        std::vector<std::string> words = words_in(phrase.text);
+        if (words.empty()) continue;
+        auto& list = english_.phrases[words.front()];
+        std::erase_if(list, [&](const auto& one) { return one.first == words; });
+        list.emplace_back(std::move(words), words_in(to));
+        std::stable_sort(list.begin(), list.end(),
+                         [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
+      }
   }
 
   void light_verbs(const Value& value) {

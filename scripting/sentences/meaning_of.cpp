@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
-#include "engine/language/things.h"
 #include "engine/start/language.h"
 #include "engine/symbolic/pddl.h"
 #include "scripting/session/episode_job.h"
