@@ -22,11 +22,13 @@ local function push(robot, part, grasp, c, pivot)
   robot:move_line(grasp.pose, { speed = 0.05, stop_on_contact = true, tolerate = true })
   local function on(to, speed, then_to)
     robot:move_part(part, to, { speed = speed, most_force = 25, pivot = pivot, retreat = away,
-      as_far_as_it_goes = not whole, then_to = then_to })
+      as_far_as_it_goes = true, then_to = then_to })
   end
   if whole then
-    on(math.min(-past / 2, w:joint(part)), c.speed, past)
-    on(past, math.min(c.speed, 0.03)) -- the last 1.5 cm slowly: no blow at the stop
+    local slow = -past / 2
+    on(math.min(slow, w:joint(part)), c.speed, past)
+    -- The last 1.5 cm slowly: no blow at the stop. Where the arm could not go that far with it, it is touched again.
+    if w:joint(part) < 4 * slow then on(past, math.min(c.speed, 0.03)) end
   else
     on(grasp.reach, c.speed)
   end

@@ -47,3 +47,11 @@ TEST_CASE("what lies flat is taken from above for a drawer, at a slant for a she
   CHECK(down_at_grasp(drawer) < -0.95);
   CHECK(down_at_grasp(shelf) > -0.85);
 }
+
+TEST_CASE("a door that the arm cannot push shut at one go is touched again, without undoing anything") {
+  RunOptions options;
+  options.on_failure = OnFailure::stop;
+  const EpisodeRecord episode = run_task("again_warm", "where=left", options, later());
+  INFO(verdict(episode));
+  CHECK(episode.outcome == Outcome::success);
+}
