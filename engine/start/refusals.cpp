@@ -72,7 +72,11 @@ Refusals::Refused& Refusals::refused(const Literal& literal, std::shared_ptr<con
   ++one.times;
   one.literal = literal;
   one.asked = asked;
-  if (one.scenes.size() < kMostScenes) one.scenes.push_back(std::move(scene));
+  const auto known = std::ranges::find(one.scenes, scene, &Refused::Failed::scene);
+  if (known != one.scenes.end())
+    ++known->times;
+  else if (one.scenes.size() < kMostScenes)
+    one.scenes.push_back({std::move(scene), 1});
   return one;
 }
 
@@ -99,7 +103,7 @@ void Refusals::look_again(Refused& one) {
   if (!one.literal || !one.why.empty() || !one.looked.empty()) return;
   const PredicateTraits traits = symbols_.traits(one.literal->fact.predicate);
   const std::string unit = traits.requires_pairs == Pairs::touching ? "" : traits.margin_unit;
-  for (const std::shared_ptr<const Scene>& scene : one.scenes) {
+  for (const auto& [scene, times] : one.scenes) {
     World world(scene);
     const WorldView view(world);
     std::vector<Looked> looked;
@@ -109,7 +113,7 @@ void Refusals::look_again(Refused& one) {
     if (value.margin && (unit == "m" || unit == "rad"))
       one.missing = one.missing < 0 ? std::abs(*value.margin) : std::min(one.missing, std::abs(*value.margin));
     if (const Looked* why = commonest_miss(looked); why != nullptr) {
-      one.why.push_back(*why);
+      one.why.insert(one.why.end(), static_cast<std::size_t>(times), *why);
       const Vector3 base = scene->robot.body.world_from_body.translation();
       const double distance = (view.world_from(subject_of(*one.literal)).translation() - base).norm();
       if (why->fate == Looked::Fate::out_of_reach)
@@ -155,7 +159,7 @@ std::vector<std::string> Refusals::cures(const Refused& one, int draws) const {
   if (one.blocked && !one.blocked->cure.empty()) cures.push_back(one.blocked->cure);
   if (!one.literal) return cures;
   for (const Looked& why : one.why) {
-    std::string cure = cure_of(why, subject_of(*one.literal), one.scenes.front()->robot.name);
+    std::string cure = cure_of(why, subject_of(*one.literal), one.scenes.front().scene->robot.name);
     if (!cure.empty() && std::ranges::find(cures, cure) == cures.end()) cures.push_back(std::move(cure));
   }
   const Predicate* predicate = symbols_.domain().predicate(one.literal->fact.predicate);
@@ -176,7 +180,7 @@ void Refusals::show(const Task& task, const std::string& what, Refused& one, con
   impasse.subject = subject_of(*one.literal);
   impasse.draws = one.times;
   impasse.looked = std::move(one.looked);
-  impasse.scene = one.scenes.front();
+  impasse.scene = one.scenes.front().scene;
   impasse.state = initial_state(*impasse.scene);
   options_.witness(impasse);
 }

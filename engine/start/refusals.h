@@ -26,7 +26,8 @@ class Refusals {
   // One of these for each draw that was not taken.
   void add(const std::string& what) { ++refused_[what].times; }
   void add(const Blocked& blocked);
-  // `scene`: in which the literal failed. `asked`: it stands in the task's own init.
+  // `scene`: in which the literal failed; the same one again counts, and is not looked at again. `asked`: it stands in
+  // the task's own init.
   void add_unmet(const Literal& literal, std::shared_ptr<const Scene> scene, bool asked);
   // No place for its first argument; `looked`: what its sample turned down.
   void add_no_place(const Literal& literal, std::shared_ptr<const Scene> scene, bool asked,
@@ -45,10 +46,14 @@ class Refusals {
     int times = 0;
     std::optional<Literal> literal;
     bool asked = false;
-    std::optional<Blocked> blocked;                    // the shallowest
-    std::vector<std::shared_ptr<const Scene>> scenes;  // the first of those in which it failed
-    std::vector<Looked> why;                           // of each of these draws the commonest cause, where one is known
-    std::vector<Looked> looked;                        // all, for pictures
+    std::optional<Blocked> blocked;  // the shallowest
+    struct Failed {
+      std::shared_ptr<const Scene> scene;
+      int times = 0;
+    };
+    std::vector<Failed> scenes;          // the first of those in which it failed
+    std::vector<Looked> why;             // of each of these draws the commonest cause, where one is known
+    std::vector<Looked> looked;          // all, for pictures
     double missing = -1, distance = -1;  // of its margin, and from the arm: the least; negative: not known
   };
   Refused& refused(const Literal& literal, std::shared_ptr<const Scene> scene, bool asked);

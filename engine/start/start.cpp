@@ -14,6 +14,7 @@
 #include "engine/start/draft.h"
 #include "engine/start/fact_tracker.h"
 #include "engine/start/joint_placement.h"
+#include "engine/start/lasting_refusals.h"
 #include "engine/start/refusals.h"
 #include "engine/start/relations.h"
 #include "engine/start/standing.h"
@@ -81,7 +82,12 @@ constexpr const char* kGoalHolds = "the goal not holding at the start";
 class StartMaker {
  public:
   StartMaker(const TaskDraw& task, Symbols& symbols, const RunOptions& options, const std::atomic<bool>* stop)
-      : draw_task_(task), symbols_(symbols), options_(options), stop_(stop), refusals_(symbols, options) {}
+      : draw_task_(task),
+        symbols_(symbols),
+        options_(options),
+        stop_(stop),
+        lasting_(symbols),
+        refusals_(symbols, options) {}
 
   PreparedStart make() {
     PreparedStart start;
@@ -132,8 +138,10 @@ class StartMaker {
     return false;
   }
 
-  bool refuse_unmet(const Literal& literal, const Scene& scene) {
-    refusals_.add_unmet(literal, std::make_shared<const Scene>(scene), asked_by_author(literal));
+  bool refuse_unmet(const Literal& literal, const Scene& now) {
+    std::shared_ptr<const Scene> scene = lasting_.scene_of(literal, now);
+    if (!scene) scene = std::make_shared<const Scene>(now);
+    refusals_.add_unmet(literal, std::move(scene), asked_by_author(literal));
     return false;
   }
 
@@ -287,7 +295,7 @@ class StartMaker {
     blocked_ = blocked_arm(draft.collision_state(), draft.scene().robot);
     if (!blocked_) blocked_ = blocked_bodies(draft.collision_state(), false);
     if (blocked_) return std::nullopt;
-    if (const auto unmet = unmet_condition(draft.view())) return Stuck{Stuck::Of::later, *unmet, key};
+    if (const auto unmet = unmet_condition(draft.view(), draft.scene())) return Stuck{Stuck::Of::later, *unmet, key};
     return std::nullopt;
   }
 
@@ -451,15 +459,19 @@ class StartMaker {
   }
 
   // The first condition that is not met, of those that are quickly asked first. What was met since the last thing was
-  // placed is not asked again.
-  std::optional<Literal> unmet_condition(const WorldView& view) {
+  // placed is not asked again, nor what was refused for good. `now`: the scene as the view sees it.
+  std::optional<Literal> unmet_condition(const WorldView& view, const Scene& now) {
     for (const bool slow : {false, true})
       for (const Literal& literal : literals_) {
         const std::string& predicate = literal.fact.predicate;
         if (!start_only(predicate) || questions_.predicates.contains(predicate) != slow) continue;
         if (const auto met = met_at_.find(text_of(literal)); met != met_at_.end() && met->second == moment_) continue;
+        if (lasting_.scene_of(literal, now)) return literal;
         const Symbols::Value value = symbols_.value(literal.fact, view);
-        if (value.holds == literal.negated) return literal;
+        if (value.holds == literal.negated) {
+          if (value.asked_arm) lasting_.add(literal, std::make_shared<const Scene>(now));
+          return literal;
+        }
         if (value.asked_arm && !slow) questions_.predicates.insert(predicate), met_at_[text_of(literal)] = moment_;
       }
     return std::nullopt;
@@ -469,7 +481,7 @@ class StartMaker {
   std::string moving(const WorldView& view) {
     FactTracker tracker(symbols_, view, asked());
     tracker.begin(tracker.read_all(view));
-    if (const auto unmet = unmet_condition(view)) return text_of(*unmet) + " and coming to rest";
+    if (const auto unmet = unmet_condition(view, scene_as_it_is(view))) return text_of(*unmet) + " and coming to rest";
     for (const Literal& literal : literals_)
       if (!start_only(literal.fact.predicate) && tracker.facts().contains(literal.fact) == literal.negated)
         return text_of(literal) + " and coming to rest";
@@ -480,10 +492,11 @@ class StartMaker {
     FactTracker tracker(symbols_, view, asked());
     auto values = tracker.read_all(view);
     tracker.begin(values);
-    if (const auto unmet = unmet_condition(view)) return refuse_unmet(*unmet, scene_as_it_is(view));
+    Scene now = scene_as_it_is(view);
+    if (const auto unmet = unmet_condition(view, now)) return refuse_unmet(*unmet, now);
     for (const Literal& literal : literals_)
       if (!start_only(literal.fact.predicate) && tracker.facts().contains(literal.fact) == literal.negated)
-        return refuse_unmet(literal, scene_as_it_is(view));
+        return refuse_unmet(literal, now);
     if (where_ && !holds(*where_, tracker.facts(), symbols_.domain(), tracker.objects()))
       return refuse(failing_parts(*where_, tracker.facts(), symbols_.domain(), tracker.objects()).front());
     tracker.look(view);
@@ -495,7 +508,7 @@ class StartMaker {
     const RandomKey key = RandomKey("room").with(task_.name).with(task_.variation).with(options_.seed);
     if (const auto out = relation_without_room(relations_asked(task_, tracker), tracker, view, symbols_, key))
       return refuse("room for what the goal asks, " + text_of(*out) + ",");
-    start.scene = std::make_shared<const Scene>(scene_as_it_is(view));
+    start.scene = std::make_shared<const Scene>(std::move(now));
     start.values = std::move(values);
     start.history = view.history();
     return true;
@@ -515,6 +528,7 @@ class StartMaker {
   int moment_ = 0;                     // other than before whenever something was moved
   std::map<std::string, int> met_at_;  // moments at which a condition was met
   int backs_ = 0;
+  LastingRefusals lasting_;
   Refusals refusals_;
 };
 

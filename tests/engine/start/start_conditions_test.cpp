@@ -140,6 +140,55 @@ TEST_CASE("a thing that the hand cannot take for another: which one") {
   CHECK(tells(start, "keep table away from cube1"));
 }
 
+// cube1 has its place, beyond the far edge of the table; cube2 is placed. The arm starts elsewhere in each draw.
+TEST_CASE("what no draw changes is asked of the arm once more, not in each draw") {
+  const TaskDraw fixed = [](int draw) {
+    Task task = stack_task(2);
+    Robot& robot = task.scene.robot;
+    robot.body.parts[static_cast<std::size_t>(robot.arm[0])].joint.initial += 0.002 * draw;
+    task.scene.bodies[static_cast<std::size_t>(task.scene.body_index("cube1"))].world_from_body =
+        translation(1.1, 0, 0);
+    task.unplaced = {"cube2"};
+    task.init = {is("reach", {"cube1"}), is("on", {"cube2", "table"})};
+    return task;
+  };
+  Conditions symbols;
+  const Start start = start_of(fixed, symbols, 1, 100);
+  INFO(start.detail);
+  CHECK(start.reason == Reason::init_impossible);
+  CHECK(symbols.asked <= 6);  // twice, once with nothing else there, and to tell why
+  CHECK(tells(start, "(reach cube1) failed 100 times: 100 out of reach"));
+  CHECK(tells(start, "; bring cube1 nearer to panda"));
+}
+
+TEST_CASE("what stands in the way in some draws only is asked for in the others, however often it was in vain before") {
+  constexpr int kFree = 6;  // the first draw without walls
+  const TaskDraw walled_at_first = [](int draw) {
+    Task task = stack_task(2);
+    Body& table = task.scene.bodies[static_cast<std::size_t>(task.scene.body_index("table"))];
+    const Shape top = table.parts[0].shapes[0];
+    const Vector3 cube =
+        task.scene.bodies[static_cast<std::size_t>(task.scene.body_index("cube1"))].world_from_body.translation();
+    for (const double way : {-0.036, 0.036})
+      for (const bool along : {true, false}) {
+        if (draw >= kFree) continue;
+        Shape wall = top;
+        wall.size = along ? Vector3(0.01, 0.08, 0.10) : Vector3(0.08, 0.01, 0.10);
+        wall.part_from_shape = table.world_from_body.inverse() *
+                               translation(cube.x() + (along ? way : 0), cube.y() + (along ? 0 : way), 0.055);
+        table.parts[0].shapes.push_back(wall);
+      }
+    task.unplaced = {"cube2"};
+    task.init = {is("reach", {"cube1"}), is("on", {"cube2", "table"})};
+    return task;
+  };
+  Conditions symbols;
+  const Start start = start_of(walled_at_first, symbols, 1);
+  INFO(start.detail);
+  REQUIRE(start.reason == Reason::none);
+  CHECK(start.draws == kFree + 1);
+}
+
 TEST_CASE("of what has a margin it is told how much is missing, of what nothing makes that nothing does") {
   Conditions symbols;
   const Start far = start_of(with({is("far", {"cube1", "cube2"}),
