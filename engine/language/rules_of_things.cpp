@@ -89,6 +89,12 @@ Fault one_for_several(const Sentence& sentence, const Mention& mention) {
   return {};
 }
 
+// `left the left door`: a way to somewhere that its word is missing from.
+Fault side_twice(const Sentence&, const Mention& mention) {
+  const bool twice = Texts(mention.places.begin(), mention.places.end()).size() < mention.places.size();
+  return twice ? Fault(quoted(mention.places.front()) + " twice") : std::nullopt;
+}
+
 Fault no_part(const Sentence& sentence, const Mention& mention) {
   if (mention.things.empty() || mention.other || mention.roles.wanted || sentence.segment(mention).excluding ||
       sentence.stands_on_table(mention))
@@ -195,6 +201,7 @@ std::span<const Rule> thing_rules() {
       {missing_thing, "which of several", which_of_several},
       {wrong_count, "other count", other_count},
       {wrong_count, "one for several", one_for_several},
+      {wrong_side, "side twice", side_twice},
       {wrong_side, "other side", not_so<&Mention::places>},
       {unproved, "bare claim", not_so<&Mention::adjectives>},
       {other_thing, "no part", no_part},

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "engine/motion/looked.h"
+#include "engine/sim/world.h"
 #include "engine/start/refusals.h"
+#include "engine/start/world_view.h"
 
 namespace stampede {
 namespace {

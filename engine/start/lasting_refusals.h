@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/start/interfaces.h"
+#include "engine/model/scene.h"
+#include "engine/start/predicates.h"
+#include "engine/start/task.h"
 
 namespace stampede {
 
