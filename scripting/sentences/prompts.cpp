@@ -66,6 +66,13 @@ std::string without_marks(std::string line) {
   return line;
 }
 
+// From the first such bracket to the last; null: there is none, or no JSON between.
+json json_between(const std::string& answer, char first, char last) {
+  const std::size_t open = answer.find(first), close = answer.rfind(last);
+  if (open == std::string::npos || close == std::string::npos || close < open) return {};
+  return json_if_any(std::string_view(answer).substr(open, close - open + 1)).value_or(json());
+}
+
 }  // namespace
 
 ChatRequest paraphrase_request(const Meaning& meaning, Grain grain, int count, std::int64_t seed) {
@@ -109,14 +116,11 @@ std::string prompt_hash(const ChatRequest& request) {
 
 std::vector<std::string> sentences_in(const std::string& answer) {
   std::vector<std::string> found;
-  const std::size_t open = answer.find('['), close = answer.rfind(']');
-  if (open != std::string::npos && close != std::string::npos && open < close) {
-    const json list = json_if_any(std::string_view(answer).substr(open, close - open + 1)).value_or(json());
-    if (list.is_array() && !list.empty() &&
-        std::all_of(list.begin(), list.end(), [](const json& one) { return one.is_string(); })) {
-      for (const json& one : list) found.push_back(without_marks(one.get<std::string>()));
-      return found;
-    }
+  const json list = json_between(answer, '[', ']');
+  if (list.is_array() && !list.empty() &&
+      std::all_of(list.begin(), list.end(), [](const json& one) { return one.is_string(); })) {
+    for (const json& one : list) found.push_back(without_marks(one.get<std::string>()));
+    return found;
   }
   std::istringstream lines(answer);
   for (std::string line; std::getline(lines, line);)
@@ -161,10 +165,7 @@ BackQuestion back_question(const Meaning& meaning, const std::string& sentence,
 }
 
 std::optional<std::string> wrong_answer(const BackQuestion& question, const std::string& answer) {
-  const std::size_t open = answer.find('{'), close = answer.rfind('}');
-  const json said = open == std::string::npos || close == std::string::npos || close < open
-                        ? json()
-                        : json_if_any(std::string_view(answer).substr(open, close - open + 1)).value_or(json());
+  const json said = json_between(answer, '{', '}');
   if (!said.is_object() || !said.contains("goal") || !said["goal"].is_number_integer()) return "it names no goal";
   if (said["goal"] != question.goal) return "it takes another goal for this one";
   if (question.wanted.empty()) return std::nullopt;
