@@ -114,17 +114,17 @@ std::optional<JointVector> first_touch(Checker& checker, const std::vector<Joint
   return batch.ask();
 }
 
-std::optional<JointVector> first_touch(Checker& checker, const Trajectory& trajectory, int physics_hz,
-                                       double step_rad) {
+std::optional<JointVector> first_touch(Checker& checker, const Trajectory& trajectory, std::int64_t from,
+                                       std::int64_t to, int physics_hz, double step_rad) {
   if (trajectory.knots.empty()) return std::nullopt;
   Batch batch(checker);
-  JointVector last = trajectory.knots.front().position;
+  JointVector last = evaluate(trajectory, static_cast<double>(from), physics_hz).position;
   batch.add(last);
-  for (std::int64_t step = 1; step <= trajectory.steps(); ++step) {
+  for (std::int64_t step = from + 1; step <= to; ++step) {
     const double s = static_cast<double>(step);
     const JointVector q = evaluate(trajectory, s, physics_hz).position;
     const double gap = joint_gap(last, q);
-    const bool end = step == trajectory.steps();
+    const bool end = step == to;
     // Slow stretches skip steps; a step longer than the spacing is divided.
     const double next = end ? 0.0 : joint_gap(last, evaluate(trajectory, s + 1, physics_hz).position);
     if (!end && next <= step_rad) continue;

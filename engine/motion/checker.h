@@ -39,8 +39,9 @@ class Checker {
 
 // First configuration of the polyline, sampled at most `step_rad` apart, that touches something.
 std::optional<JointVector> first_touch(Checker& checker, const std::vector<JointVector>& waypoints, double step_rad);
-// The same along a trajectory.
-std::optional<JointVector> first_touch(Checker& checker, const Trajectory& trajectory, int physics_hz, double step_rad);
+// The same along a trajectory, from step `from` to step `to`.
+std::optional<JointVector> first_touch(Checker& checker, const Trajectory& trajectory, std::int64_t from,
+                                       std::int64_t to, int physics_hz, double step_rad);
 
 // `hand.left_finger touches table`: what touches what there, for people. Empty: nothing.
 std::string describe_contact(const CollisionState& state, const JointVector& q);

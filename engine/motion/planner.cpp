@@ -132,7 +132,8 @@ JointPath plan_path(const MotionProblem& problem, const JointVector& goal) {
 }
 
 PlannedMotion certify(const CollisionState& state, const std::vector<JointVector>& waypoints,
-                      const MotionLimits& limits, double clearance, const PathSpeedLimit& speed_limit) {
+                      const MotionLimits& limits, double clearance, const PathSpeedLimit& speed_limit,
+                      const WayIn* way_in) {
   constexpr int kRounds = 24;
   const int physics_hz = state.scene().physics_hz;
   PlannedMotion motion;
@@ -141,7 +142,17 @@ PlannedMotion certify(const CollisionState& state, const std::vector<JointVector
     motion.trajectory = time_path(state.arm(), {waypoints.back()}, limits, physics_hz);
     return motion;
   }
-  Checker checker(state, std::max(0.0, clearance), {kept.front(), kept.back()});
+  const double padding = std::max(0.0, clearance);
+  Checker checker(state, padding, {kept.front(), kept.back()});
+  std::optional<Checker> checker_in;
+  if (way_in != nullptr) checker_in.emplace(way_in->state, padding, std::vector{kept.front(), way_in->to});
+  const auto touched = [&](const Trajectory& trajectory) -> std::optional<JointVector> {
+    const double step_rad = certified_step(limits);
+    const std::int64_t in = way_in != nullptr ? nearest_step(trajectory, way_in->to, physics_hz) : 0;
+    if (in > 0)
+      if (auto touch = first_touch(*checker_in, trajectory, 0, in, physics_hz, step_rad)) return touch;
+    return first_touch(checker, trajectory, in, trajectory.steps(), physics_hz, step_rad);
+  };
   const Arm& arm = state.arm();
   const PathSpeedLimit of_arm = tool_limit(arm, limits);
   const PathSpeedLimit limit = [&](const PathPoint& point) {
@@ -150,10 +161,11 @@ PlannedMotion certify(const CollisionState& state, const std::vector<JointVector
   std::vector<double> blends = default_blends(kept, kLongestBlend);
   for (int round = 0; round < kRounds; ++round) {
     motion.trajectory = time_blended(BlendedPath(kept, blends), arm.limits(), limits, physics_hz, limit);
-    const std::optional<JointVector> touch =
-        clearance >= 0 ? first_touch(checker, motion.trajectory, physics_hz, certified_step(limits)) : std::nullopt;
+    const std::optional<JointVector> touch = clearance >= 0 ? touched(motion.trajectory) : std::nullopt;
     if (!touch) return motion;
-    motion.detail = "the path found touches: " + checker.contact(*touch);
+    const std::string contact = checker.contact(*touch);
+    motion.detail =
+        "the path found touches: " + (contact.empty() && checker_in ? checker_in->contact(*touch) : contact);
     const std::size_t corner = blend_at(kept, blends, *touch);
     if (corner == 0) break;
     blends[corner] *= 0.4;

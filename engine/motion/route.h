@@ -64,9 +64,14 @@ double certified_step(const MotionLimits& limits);
 double clearance_m(const MotionLimits& limits, int care);
 
 // Rounds, times and certifies (`clearance_m` below 0: does not). Blends that touch something shrink.
-// Result: no_path when the polyline itself does.
+// `way_in`: until it passes the waypoint `to`, its state counts instead. Result: no_path when the polyline itself does.
+struct WayIn {
+  const CollisionState& state;
+  const JointVector& to;
+};
 PlannedMotion certify(const CollisionState& state, const std::vector<JointVector>& waypoints,
-                      const MotionLimits& limits, double clearance_m, const PathSpeedLimit& speed_limit = {});
+                      const MotionLimits& limits, double clearance_m, const PathSpeedLimit& speed_limit = {},
+                      const WayIn* way_in = nullptr);
 
 // Step at which the trajectory passes nearest to a configuration.
 std::int64_t nearest_step(const Trajectory& trajectory, const JointVector& q, int physics_hz);

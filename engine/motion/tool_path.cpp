@@ -147,25 +147,29 @@ Tail make_tail(const MotionProblem& at_first, const std::vector<ToolTarget>& tar
   return tail;
 }
 
-// The free way to the first target, on which nothing may be touched when straight lines follow it: what is to be
-// grasped is then still an obstacle.
-JointPath search_way(const MotionProblem& problem, const Tail& tail, int care) {
-  if (tail.waypoints.size() <= 1) return search_path(problem, tail.waypoints.front(), care);
+// What counts on the free way to the first target. Nothing may be touched there: what is to be grasped, and what that
+// which is held is brought to, is still an obstacle; unless an end of a way that no lines follow touches it.
+CollisionState obstacles_before(const MotionProblem& problem, const Tail& tail) {
   CollisionState untouched = problem.state;
   untouched.clear_allowed();
-  return search_path({untouched, problem.start, problem.limits, problem.key}, tail.waypoints.front(), care);
+  if (tail.waypoints.size() > 1) return untouched;
+  const bool free = untouched.free(problem.start) && untouched.free(tail.waypoints.front());
+  return free ? untouched : problem.state;
 }
 
 // Free motion to the tail's start, then the tail.
 PlannedMotion plan_to_tail(const MotionProblem& problem, const Tail& tail, const std::vector<ToolTarget>& targets) {
   PlannedMotion motion;
+  const CollisionState before = obstacles_before(problem, tail);
+  const WayIn way_in{before, tail.waypoints.front()};
   for (int care = 0; care <= kMostCare; ++care) {
-    JointPath path = search_way(problem, tail, care);
+    JointPath path = search_path({before, problem.start, problem.limits, problem.key}, tail.waypoints.front(), care);
     motion.reason = path.reason;
     motion.detail = path.detail;
     if (path.reason != Reason::none) return motion;
     path.waypoints.insert(path.waypoints.end(), tail.waypoints.begin() + 1, tail.waypoints.end());
-    motion = certify(problem.state, path.waypoints, problem.limits, clearance_m(problem.limits, care));
+    const double clearance = clearance_m(problem.limits, care);
+    motion = certify(problem.state, path.waypoints, problem.limits, clearance, {}, &way_in);
     if (motion.reason == Reason::none) break;
   }
   if (motion.reason != Reason::none) return motion;

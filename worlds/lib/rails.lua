@@ -10,10 +10,10 @@ return function(z, length)
       cylinder { 0.007, length, at = { length / 2, 0, z }, rpy = { 0, math.pi / 2, 0 } },
       sphere { 0.009, at = { length, 0, z } },
     },
-    regions = { -- where the bend of a hanger's hook is for as long as the rod is in it
+    regions = { -- where the bend of a hanger's hook is for as long as the rod is in it; lifted by 2 to 9 mm it clears the knob
       rod = {
         at = { length / 2 + 0.01, 0, z }, rpy = { 0, math.pi / 2, 0 }, size = { 0.024, 0.024, length - 0.02 },
-        traits = { "hook" }, numbers = { lift = 0.012, deep = length - 0.032, askew = deg(30) },
+        traits = { "hook" }, numbers = { lift = 0.0055, deep = length - 0.032, askew = deg(30) },
       },
     },
   }

@@ -11,19 +11,27 @@ double turn_between(const Transform& a, const Transform& b) {
   return angle_between(Quaternion(a.linear()), Quaternion(b.linear()));
 }
 
-// A post on the table, to the left of its middle.
+Body box_body(const char* name, const Vector3& size) {
+  Shape shape;
+  shape.size = size;
+  Part part;
+  part.name = name;
+  part.shapes = {shape};
+  Body body;
+  body.name = name;
+  body.parts = {part};
+  return body;
+}
+
+// A post on the table, to the left of its middle, and a bar that lies behind the arm.
 std::shared_ptr<const Scene> scene_with_post() {
   Scene scene = table_scene(0);
-  Shape post;
-  post.size = Vector3(0.04, 0.04, 0.2);
-  Part part;
-  part.name = "post";
-  part.shapes = {post};
-  Body body;
-  body.name = "post";
-  body.parts = {part};
-  body.world_from_body = translation(0.5, 0.2, 0.1);
-  scene.bodies.insert(scene.bodies.begin(), body);
+  Body post = box_body("post", Vector3(0.04, 0.04, 0.2)), bar = box_body("bar", Vector3(0.02, 0.02, 0.2));
+  post.world_from_body = translation(0.5, 0.2, 0.1);
+  bar.free = true;
+  set_uniform_mass(bar.parts[0], 0.1);
+  bar.world_from_body = translation(-0.5, 0, 0.1);
+  scene.bodies.insert(scene.bodies.begin(), {bar, post});
   return std::make_shared<const Scene>(std::move(scene));
 }
 
@@ -69,6 +77,29 @@ TEST_CASE("the last half of an approach is a straight line of the tool") {
     if (tip.z() < 0.10) worst = std::max(worst, (tip - grasp.translation()).head<2>().norm());
   }
   CHECK(worst < 0.002);
+}
+
+TEST_CASE("what a held thing may touch at the goal it keeps clear of on the way, in rounded corners too") {
+  const auto scene = scene_with_post();
+  const World world(scene);
+  CollisionState all = world.collision_state();
+  all.hold(scene->body_index("bar"), translation(0, 0, 0.08));  // it hangs down from the hand
+  CollisionState state = all;
+  state.allow({scene->body_index("post"), 0});
+  const JointVector start = *all.arm().solve(above(0.5, 0.36, 0.22), all.arm().home(), RandomKey("start"), 1);
+  const std::vector<ToolTarget> beside = {{"approach", above(0.5, 0.13, 0.22)}, {"goal", above(0.5, 0.13, 0.21)}};
+  for (const bool lines : {true, false}) {  // a way that lines follow, and one that ends there
+    const std::vector<ToolTarget> targets(beside.begin(), lines ? beside.end() : beside.begin() + 1);
+    for (int k = 0; k < 20; ++k) {
+      const PlannedMotion motion = plan_through({state, start, {}, RandomKey("clear").with(k)}, targets);
+      REQUIRE(motion.reason == Reason::none);
+      const std::int64_t end = lines ? motion.vias[0].step : motion.trajectory.steps();
+      int touching = 0;
+      for (std::int64_t step = 0; step <= end; ++step)
+        touching += !all.free(evaluate(motion.trajectory, static_cast<double>(step), kHz).position);
+      CHECK(touching == 0);
+    }
+  }
 }
 
 TEST_CASE("a line is straight, keeps the tool's speed and its rotation") {
