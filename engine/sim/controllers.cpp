@@ -15,11 +15,11 @@ constexpr double kTurnOverTip = 0.04;     // (N m/rad) per (N/m)
 constexpr double kPostureStiffness = 20;  // N m/rad, in the null space of the tip
 constexpr double kSingularity = 1e-4;     // damping of the null-space projector
 // A finger just told to move is not blocked. Nor is one whose contact has just been dropped: asked for so much speed,
-// it would be 4 mm deep in what it holds before contact is found again.
+// it would be deep in what it holds before contact is found again.
 constexpr std::int64_t kStartSteps = 3;
 constexpr double kBlockedLag = 0.001;   // m
 constexpr double kBlockedSpeed = 0.25;  // of finger_speed
-constexpr double kPressSpeed = 1.0;     // m/s
+constexpr double kPressSpeed = 0.35;    // m/s
 constexpr double kDefaultEffort = 100;  // N m or N, where a robot states none
 // What an arm gives against contact, measured at its tip, and beside it the weight of what it holds; a wrist's short
 // lever needs some torque of its own.
@@ -332,8 +332,8 @@ void RobotControl::control_cartesian_impedance(const JointState& next) {
 
 // Fingers travel at the hand's speed, but a motor that asks a light finger for so little speed presses with a fraction
 // of its force: the solver's iterations end first. A closing finger that stands still short of its target is asked for
-// more, which its force limit then cuts off. An opening one is not: nobody grasps with it, and where contact is lost
-// for a step it would jump.
+// more, which its force limit then cuts off, and the solver starts from all of that; not for so much that it would jump
+// by more than a millimetre or two where contact is lost for a step. An opening one is not: nobody grasps with it.
 void RobotControl::control_hand() {
   const double each = finger_motors_.empty() ? 0 : hand.opening / static_cast<double>(finger_motors_.size());
   for (std::size_t f = 0; f < finger_motors_.size(); ++f) {
@@ -350,6 +350,7 @@ void RobotControl::control_hand() {
     motor.velocity = blocked ? -kPressSpeed : 0;
     motor.fastest = blocked ? kPressSpeed : robot_.finger_speed;
     motor.most_force = force;
+    motor.presses = blocked;
   }
 }
 

@@ -307,7 +307,8 @@ void IslandSolver::start_motors(const Mover& mover, std::size_t first) {
       row.lower = std::max(row.lower, own[i] - most);
       row.upper = std::min(row.upper, own[i] + most);
     }
-    row.impulse = std::clamp(impulses[i], row.lower, row.upper);
+    const double start = mover.motors[i]->presses ? std::copysign(row.upper, row.target) : impulses[i];
+    row.impulse = std::clamp(start, row.lower, row.upper);
   }
   for (std::size_t i = 0; i < count; ++i) rows_.start(joints_[first + i], joints_[first + i].impulse);
 }

@@ -29,6 +29,7 @@ struct JointMotor {
   double most_force = 0;  // N or N m; 0: it is off
   // N or N m, above 0: beyond what the speed asked for takes where nothing touches, the motor gives no more than this.
   double against_contact = 0;
+  bool presses = false;    // what holds it up bears all its force: the solver starts from there
   double force = 0;        // of the last step
   bool saturated = false;  // in the last step, by one of both
 };

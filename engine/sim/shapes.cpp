@@ -13,6 +13,7 @@ namespace stampede {
 namespace {
 
 constexpr double kHullMargin = 0.001;    // m
+constexpr double kBoxMargin = 0.0015;    // m, at most
 constexpr double kRoom = 0.001;          // m, around the boxes around shapes
 constexpr double kMarginOfInside = 0.2;  // of the greatest ball inside: thin hulls keep their shape
 constexpr double kNoRotation = 1e-12;
@@ -70,11 +71,19 @@ btCollisionShape* make_cone(const Shape& shape, ShapeStore& store, Transform& li
   return cone;
 }
 
+// Bullet rounds a box's edges by a tenth of its least half size, where it has no better way than GJK: a handle would be
+// a millimetre inside the back of a hand before they touch.
+btCollisionShape* make_box(const Shape& shape, ShapeStore& store) {
+  auto* box = keep<Roomy<btBoxShape>>(store, to_bullet(Vector3(shape.size / 2)));
+  box->setMargin(std::min(box->getMargin(), btScalar(kBoxMargin)));
+  return box;
+}
+
 // May change the transform: hulls bake it into their points.
 btCollisionShape* make_shape(const Shape& shape, ShapeStore& store, Transform& link_from_shape) {
   switch (shape.kind) {
     case ShapeKind::box:
-      return keep<Roomy<btBoxShape>>(store, to_bullet(Vector3(shape.size / 2)));
+      return make_box(shape, store);
     case ShapeKind::sphere:
       return keep<Roomy<btSphereShape>>(store, shape.radius);
     case ShapeKind::cylinder:

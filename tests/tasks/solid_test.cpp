@@ -15,9 +15,7 @@ void check_solid(const std::string& task, int seed, const std::string& variation
   const EpisodeRecord episode = run_task(task, variation, options);
   INFO(task << " " << seed << ": " << verdict(episode));
   CHECK_FALSE(episode.frames.empty());
-  OverlapLimits limits;
-  limits.let_alone = 0.0011;  // in physics a hull's corners are round, by a millimetre
-  for (const Overlap& overlap : overlaps_of(episode, limits)) FAIL_CHECK(to_text(overlap));
+  for (const Overlap& overlap : overlaps_of(episode)) FAIL_CHECK(to_text(overlap));
 }
 
 void check_solid(const std::string& task, int seed) { check_solid(task, seed, first_variation(task)); }
@@ -49,6 +47,10 @@ TEST_CASE("what is pinched, turned or let fall does not sink in where it once di
   check_solid("reach_and_drag", 730002, "colour=maroon");            // all of them, along an axis of the world
   check_solid("place_shape_in_shape_sorter", 730008, "form=prism");  // one corner landed, then the others
   check_solid("take_plate_off_colored_dish_rack", 730007);
+  check_solid("place_hanger_on_rack", 930000);   // knocked against the rail, it was pressed into the hand
+  check_solid("open_window", 970018);            // contact lost for a step: a finger jumped
+  check_solid("open_fridge", 970021);            // a bar in the rounded edge of the hand
+  check_solid("take_tray_out_of_oven", 970009);  // a wrist did not follow: the fingers' force took all iterations
 }
 
 TEST_CASE("arm and furniture are solid in every task, first third", "[solid]") {
