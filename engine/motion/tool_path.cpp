@@ -162,6 +162,7 @@ PlannedMotion plan_to_tail(const MotionProblem& problem, const Tail& tail, const
   PlannedMotion motion;
   const CollisionState before = obstacles_before(problem, tail);
   const WayIn way_in{before, tail.waypoints.front()};
+  const bool lines = tail.waypoints.size() > 1;
   for (int care = 0; care <= kMostCare; ++care) {
     JointPath path = search_path({before, problem.start, problem.limits, problem.key}, tail.waypoints.front(), care);
     motion.reason = path.reason;
@@ -169,7 +170,8 @@ PlannedMotion plan_to_tail(const MotionProblem& problem, const Tail& tail, const
     if (path.reason != Reason::none) return motion;
     path.waypoints.insert(path.waypoints.end(), tail.waypoints.begin() + 1, tail.waypoints.end());
     const double clearance = clearance_m(problem.limits, care);
-    motion = certify(problem.state, path.waypoints, problem.limits, clearance, {}, &way_in);
+    motion = lines ? certify(problem.state, path.waypoints, problem.limits, clearance, {}, &way_in)
+                   : certify(before, path.waypoints, problem.limits, clearance);
     if (motion.reason == Reason::none) break;
   }
   if (motion.reason != Reason::none) return motion;

@@ -17,21 +17,27 @@ inline Transform above(double x, double y, double z, double yaw = 0) {
   return translation(x, y, z) * rotation_rpy(std::numbers::pi, 0, yaw);
 }
 
+inline Body box_body(const std::string& name, const Vector3& size) {
+  Shape shape;
+  shape.size = size;
+  Part part;
+  part.name = name;
+  part.shapes = {shape};
+  Body body;
+  body.name = name;
+  body.parts = {part};
+  return body;
+}
+
 inline std::shared_ptr<const Scene> cluttered_scene(int boxes = 10) {
   auto scene = std::make_shared<Scene>(table_scene(0));
   Random random(RandomKey("cluttered"));
   for (int i = 0; i < boxes; ++i) {
     const double angle = 2.2 * (2.0 * i / std::max(1, boxes - 1) - 1.0), distance = random.between(0.4, 0.75);
-    Shape shape;
-    shape.size = Vector3(0.08, 0.08, random.between(0.2, 0.6));
-    Part part;
-    part.shapes.push_back(shape);
-    Body body;
-    body.name = "post" + std::to_string(i);
-    part.name = body.name;
-    body.parts.push_back(part);
-    body.world_from_body = translation(distance * std::cos(angle), distance * std::sin(angle), 0.5 * shape.size.z());
-    scene->bodies.push_back(body);
+    const double height = random.between(0.2, 0.6);
+    Body body = box_body("post" + std::to_string(i), Vector3(0.08, 0.08, height));
+    body.world_from_body = translation(distance * std::cos(angle), distance * std::sin(angle), 0.5 * height);
+    scene->bodies.push_back(std::move(body));
   }
   std::sort(scene->bodies.begin(), scene->bodies.end(), [](const Body& a, const Body& b) { return a.name < b.name; });
   return scene;

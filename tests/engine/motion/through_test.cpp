@@ -11,18 +11,6 @@ double turn_between(const Transform& a, const Transform& b) {
   return angle_between(Quaternion(a.linear()), Quaternion(b.linear()));
 }
 
-Body box_body(const char* name, const Vector3& size) {
-  Shape shape;
-  shape.size = size;
-  Part part;
-  part.name = name;
-  part.shapes = {shape};
-  Body body;
-  body.name = name;
-  body.parts = {part};
-  return body;
-}
-
 // A post on the table, to the left of its middle, and a bar that lies behind the arm.
 std::shared_ptr<const Scene> scene_with_post() {
   Scene scene = table_scene(0);
