@@ -179,7 +179,7 @@ Library::TaskInfo info_of(LibraryDraft& draft, const Definition& definition) {
 
 // At most so many variations are tried: the first, and others at equal distances.
 void read_task(LibraryDraft& draft, const Definition& definition, std::size_t most) {
-  TaskScript script(definition, draft.library());
+  TaskScript script(definition, draft.fresh_state());
   Library::TaskInfo info = info_of(draft, definition);
   const std::vector<Value> variations = script.variations();
   for (const Value& variation : variations) {

@@ -65,6 +65,12 @@ int unknown_axis(lua_State* state) {
   throw std::runtime_error("the variations have no axis '" + name + "': " + cure);
 }
 
+int forget_definitions(lua_State* state) {
+  lua_newtable(state);
+  lua_setfield(state, LUA_REGISTRYINDEX, kDefinitionsKey);
+  return 0;
+}
+
 // Arguments: bytecode, whether there is a predicate hand_empty, then the modules of colours.
 int run_prelude(lua_State* state) {
   const auto* bytecode = static_cast<const std::string*>(lua_touserdata(state, 1));
@@ -103,9 +109,7 @@ int run_prelude(lua_State* state) {
   lua_pushvalue(state, -1);
   lua_setfield(state, LUA_REGISTRYINDEX, kWordsKey);
   lua_call(state, 1, 0);
-  lua_newtable(state);
-  lua_setfield(state, LUA_REGISTRYINDEX, kDefinitionsKey);
-  return 0;
+  return forget_definitions(state);
 }
 
 const std::string& prelude_bytecode() {
@@ -179,6 +183,12 @@ DefinitionState::~DefinitionState() = default;
 Sandbox& DefinitionState::sandbox() { return impl_->sandbox; }
 lua_State* DefinitionState::state() { return impl_->sandbox.state(); }
 const Library& DefinitionState::library() const { return *impl_->library; }
+
+void DefinitionState::start_afresh() {
+  sandbox().start_afresh();
+  lua_pushcfunction(state(), lua_function<forget_definitions>);
+  sandbox().call(0, 0);
+}
 
 void DefinitionState::push(DefinitionKind kind, std::string_view name) {
   lua_State* lua = state();

@@ -24,6 +24,8 @@ class DefinitionState {
   // `tag` = "one_of" | "between" | "sample_of" | "literal" | "call" | "stream" | "formula" …; prelude.lua documents
   // each form. Throws Error.
   void push(DefinitionKind kind, std::string_view name);
+  // Forgets what was pushed, and the modules that it required. Not after an Error.
+  void start_afresh();
 
  private:
   void extend(const ScriptFile& file);

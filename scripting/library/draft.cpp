@@ -82,7 +82,7 @@ void LibraryDraft::read_definitions() {
   for (const ScriptFile& file : files()) {
     if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::module || file.bytecode.empty()) continue;
     guarded_in(file, [&] {
-      DefinitionState state(library_, kCheckLimits);
+      DefinitionState& state = fresh_state();
       state.push(file.kind, file.name);
       Definition definition{&file, value_as_written(state.state(), -1, file.shown_path), field_lines(file.source),
                             &complaints_};
@@ -126,10 +126,19 @@ const Definition* LibraryDraft::find(DefinitionKind kind, const std::string& nam
   return found == definitions.end() ? nullptr : &found->second;
 }
 
+DefinitionState& LibraryDraft::fresh_state() {
+  if (state_ != nullptr)
+    state_->start_afresh();
+  else
+    state_ = std::make_unique<DefinitionState>(library_, kCheckLimits);
+  return *state_;
+}
+
 void LibraryDraft::guarded_in(const ScriptFile& file, const std::function<void()>& work) {
   try {
     work();
   } catch (const Error& error) {
+    state_.reset();  // its budget may be spent
     complaints_.add(placed_in(file, error));
   }
 }

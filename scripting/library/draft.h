@@ -92,6 +92,9 @@ class LibraryDraft {
   const Definition* read_type_file(const ScriptFile& file);
   const std::list<Definition>& type_files() const { return type_files_; }
 
+  // For the file that is read next: nothing is left in it of those before. The last one given is then no longer used.
+  DefinitionState& fresh_state();
+
   // Complaints of `work` that have no place in a file are said to be of this one.
   void guarded_in(const ScriptFile& file, const std::function<void()>& work);
   // Of a formula in this field.
@@ -107,6 +110,7 @@ class LibraryDraft {
   Complaints complaints_;
   std::map<DefinitionKind, Definitions> definitions_;
   std::list<Definition> type_files_;
+  std::unique_ptr<DefinitionState> state_;
   NumberTable numbers_;
 };
 

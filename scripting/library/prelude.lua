@@ -543,10 +543,10 @@ function words.range(first, last, step)
 end
 
 -- colours: worlds/colours.lua returns { red = { 0.9, 0.1, 0.1 }, … } (sRGB, 0 … 1); names are in alphabetical order.
-local colours = { names = {} }
-local by_colour = {}
+local colours = {}
+local by_colour, colour_names = {}, {}
 for name, rgb in pairs(api.colours) do
-  colours.names[#colours.names + 1] = name
+  colour_names[#colour_names + 1] = name
   by_colour[name] = rgb
 end
 function colours.rgb(name)
@@ -615,7 +615,7 @@ function colours.except(...)
     for _, one in ipairs(type(name) == "table" and name or { name }) do others[#others + 1] = one end
   end
   local result = {}
-  for _, name in ipairs(colours.names) do
+  for _, name in ipairs(colour_names) do
     local apart = true
     for _, other in ipairs(others) do
       apart = apart and name ~= other and (by_colour[other] == nil or colours.difference(name, other) >= confused)
@@ -630,7 +630,7 @@ function colours.apart(n, count)
   if math.type(n) ~= "integer" or n < 1 or (count ~= nil and (math.type(count) ~= "integer" or count < 1)) then
     say("colours.apart takes how many colours, and how many lists of them: colours.apart(3, 50)")
   end
-  local lists, names = {}, colours.names
+  local lists, names = {}, colour_names
   for i = 1, count or #names do
     local list, round = { names[(i - 1) % #names + 1] }, (i - 1) // #names
     for k = 2, n do
@@ -642,4 +642,10 @@ function colours.apart(n, count)
   end
   return lists
 end
-words.colours = setmetatable({}, { __index = colours, __newindex = fixed })
+words.colours = setmetatable({}, {
+  __index = function(_, name)
+    if name == "names" then return { table.unpack(colour_names) } end -- who sorts it sorts his own
+    return colours[name]
+  end,
+  __newindex = fixed,
+})

@@ -67,9 +67,6 @@ std::string variation_text(const Value& variation) {
   return text;
 }
 
-TaskScript::TaskScript(const Definition& definition, std::shared_ptr<const Library> library)
-    : definition_(definition), state_(std::move(library), kCheckLimits) {}
-
 std::vector<Value> TaskScript::variations() {
   std::vector<Value> kept;
   std::vector<std::string> texts;

@@ -1,7 +1,6 @@
 // A task's file as a function of its variation. Room-internal.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@ namespace stampede {
 // All throw Error where the script fails.
 class TaskScript {
  public:
-  TaskScript(const Definition& definition, std::shared_ptr<const Library> library);
+  TaskScript(const Definition& definition, DefinitionState& state) : definition_(definition), state_(state) {}
   // The product of the axes or the list, without what `where` leaves out.
   std::vector<Value> variations();
   // What the field is in this variation: functions of it are called.
@@ -24,7 +23,7 @@ class TaskScript {
   void push_function(const char* field, const Value& variation);
 
   const Definition& definition_;
-  DefinitionState state_;
+  DefinitionState& state_;
 };
 
 std::string variation_text(const Value& variation);  // `colour=red,height=3`

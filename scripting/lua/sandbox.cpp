@@ -252,10 +252,15 @@ int require_module(lua_State* state) {
   return 1;
 }
 
-int set_up(lua_State* state) {
-  install_whitelist(state);
+int forget_modules(lua_State* state) {
   lua_newtable(state);
   lua_setfield(state, LUA_REGISTRYINDEX, kModulesKey);
+  return 0;
+}
+
+int set_up(lua_State* state) {
+  install_whitelist(state);
+  forget_modules(state);
   lua_pushglobaltable(state);
   lua_pushcfunction(state, lua_function<require_module>);
   lua_setfield(state, -2, "require");
@@ -322,6 +327,13 @@ void Sandbox::run(std::string_view bytecode, std::string_view chunk_name, int re
   lua_pushlightuserdata(state, &bytecode);
   lua_pushlightuserdata(state, &chunk_name);
   call(2, results);
+}
+
+void Sandbox::start_afresh() {
+  lua_settop(impl_->state, 0);
+  lua_pushcfunction(impl_->state, lua_function<forget_modules>);
+  call(0, 0);
+  if (impl_->longest > 0) lua_gc(impl_->state, LUA_GCCOLLECT);  // or the next script pays for the last one's long texts
 }
 
 bool Sandbox::resume(lua_State* coroutine, int arguments, int& results) {

@@ -41,6 +41,10 @@ class Sandbox {
   // returned. Throws Error when it raised one.
   bool resume(lua_State* coroutine, int arguments, int& results);
 
+  // Forgets the modules that were required, and the stack: the next script finds the state as a fresh one would be.
+  // Not after an Error: a budget may be spent for good.
+  void start_afresh();
+
   static std::string compile(std::string_view source, std::string_view chunk_name);  // throws Error: file:line: message
 
   struct Impl;

@@ -95,6 +95,19 @@ std::string said(const std::string& file, const std::string& from, const std::st
 
 }  // namespace
 
+TEST_CASE("a file is read as if it were the only one: what others did to lists and modules is not seen") {
+  Files files = sound_files();
+  files["worlds/lib/sizes.lua"] = "-- Sizes.\nreturn { wide = 0.1 }\n";
+  for (const char* name : {"first", "second"})
+    files[std::string("tasks/") + name + ".lua"] =
+        "-- It looks at what it is given, and changes it.\nlocal sizes = require(\"worlds.lib.sizes\")\n"
+        "assert(sizes.wide == 0.1 and #colours.names == 2, \"somebody was here\")\n"
+        "sizes.wide = 9\ntable.remove(colours.names)\n"
+        "return task {\n  world = \"lab\",\n  objects = { one = { \"cube\" } },\n"
+        "  init = { is.on(\"one\", \"table\") },\n  goal = is.holding(\"one\"),\n  instructions = { \"take\" },\n}\n";
+  CHECK(Root(files).complaints().empty());
+}
+
 TEST_CASE("the sound root has no complaints") { CHECK(Root(sound_files()).complaints().empty()); }
 
 TEST_CASE("what a step sets is one of the skill's parameters, within its bounds") {

@@ -304,6 +304,23 @@ TEST_CASE("require gives a module once and names what it lacks") {
                     Catch::Contains("requires itself"));
 }
 
+TEST_CASE("after a fresh start, modules are as nobody has changed them, and long texts of others cost nothing") {
+  const std::string module = Sandbox::compile("return { count = 0 }", "tasks/lib/a.lua");
+  Sandbox sandbox({200'000, 4u << 20}, [&](std::string_view) { return std::string_view(module); });
+  const auto count = [&] {
+    sandbox.run(Sandbox::compile("local a = require 'a' a.count = a.count + 1 return a.count", "t.lua"), "t.lua", 1);
+    return lua_tointeger(sandbox.state(), -1);
+  };
+  CHECK(count() == 1);
+  CHECK(count() == 2);
+  sandbox.start_afresh();
+  CHECK(lua_gettop(sandbox.state()) == 0);
+  CHECK(count() == 1);
+  sandbox.run(Sandbox::compile("return ('x'):rep(60000)", "long.lua"), "long.lua", 1);
+  sandbox.start_afresh();
+  sandbox.run(Sandbox::compile("for i = 1, 50000 do end", "t.lua"), "t.lua", 0);  // 30 times as dear beside the text
+}
+
 TEST_CASE("a syntax error names file and line") {
   try {
     Sandbox::compile("return task {\n  world = \n}", "tasks/bad.lua");
