@@ -49,15 +49,12 @@ int workers_of(const Arguments& arguments) {
   return std::min(usable_cores(), static_cast<int>(kMostWorkers));
 }
 
-std::shared_ptr<const Library> words_of(const Arguments& arguments) {
-  std::vector<Error> mistakes;
-  return Library::load(roots_of(arguments), mistakes);
-}
+std::shared_ptr<const Library> words_of(const Arguments& arguments) { return Library::load_words(roots_of(arguments)); }
 
 std::shared_ptr<const Library> load_library(const Arguments& arguments) { return Library::load(roots_of(arguments)); }
 
-std::shared_ptr<const Library> load_usable_library(const Arguments& arguments) {
-  return Library::load_usable(roots_of(arguments));
+std::shared_ptr<const Library> load_usable_library(const Arguments& arguments, const std::vector<std::string>& tasks) {
+  return Library::load_usable(roots_of(arguments), tasks);
 }
 
 void tell_left_out(const Library& library, const std::vector<const ScriptFile*>& told, Console& console) {

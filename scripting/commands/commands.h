@@ -44,8 +44,9 @@ std::int64_t episode_number(const std::string& text);  // throws UsageError
 
 // What --root and --path name. Throws LibraryError with every mistake.
 std::shared_ptr<const Library> load_library(const Arguments& arguments);
-// The same for commands that run some tasks: only what those use must be right.
-std::shared_ptr<const Library> load_usable_library(const Arguments& arguments);
+// The same for commands that run these tasks: only what those use must be right.
+std::shared_ptr<const Library> load_usable_library(const Arguments& arguments,
+                                                   const std::vector<std::string>& tasks = {});
 // On stderr: which files were left out, for they have mistakes, but those that are `told` already.
 void tell_left_out(const Library& library, const std::vector<const ScriptFile*>& told, Console& console);
 // The same, whatever mistakes other files have: for commands that ask only for words of it.

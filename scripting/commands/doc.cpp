@@ -16,8 +16,7 @@ namespace fs = std::filesystem;
 // Of the last --path, or of the project.
 std::vector<TextFile> documents(const Arguments& arguments) {
   const Roots roots = roots_of(arguments);
-  std::vector<Error> complaints;  // `stampede check` tells of them
-  const auto library = Library::load(roots, complaints);
+  const auto library = Library::load_words(roots);  // `stampede check` tells of mistakes
   if (roots.folders.size() > 1) return editor_files(roots.folders.back(), *library);
   const fs::path& root = roots.folders.front();
   if (!fs::is_directory(root / "scripting")) {

@@ -110,7 +110,7 @@ ExitCode do_evaluate(const Arguments& arguments, Console& console) {
   settings.run.workers = workers_of(arguments);
   settings.run.stop = console.stop;
   const std::optional<PolicySettings> acting = policy_settings(arguments, options.observation);
-  const auto library = load_usable_library(arguments);
+  const auto library = load_usable_library(arguments, request.tasks);
   const JobList jobs(*library, request);
   settings.run.cameras = cameras_by_task(library, jobs, arguments);
   const std::string out = arguments.text("--out");

@@ -45,8 +45,10 @@ PhysicalRun run_held_out(const std::shared_ptr<const Library>& library, const He
 
 std::vector<PhysicalRun> run_in_physics(const std::vector<HeldOutEpisode>& episodes, const Roots& roots, int workers,
                                         const TrueWordsPlanner& planner) {
-  const std::shared_ptr<const Library> library = Library::load_usable(roots);
-  for (const HeldOutEpisode& one : episodes) task_info(*library, one.task);
+  std::vector<std::string> tasks;
+  for (const HeldOutEpisode& one : episodes) tasks.push_back(one.task);
+  const std::shared_ptr<const Library> library = Library::load_usable(roots, tasks);
+  for (const std::string& task : tasks) task_info(*library, task);
   std::vector<PhysicalRun> runs;
   in_order(
       episodes.size(), {workers}, [] { return std::monostate{}; },

@@ -93,13 +93,13 @@ std::string line_at(const std::string& text, int line) {
 }
 
 // What `stampede check` would say of the task beside all other files, before any of them is written.
-std::string checker_says(const Arguments& arguments, const std::vector<NewFile>& files) {
+std::string checker_says(const Arguments& arguments, const std::string& task, const std::vector<NewFile>& files) {
   const TemporaryFolder scratch;
   Roots roots = roots_of(arguments);
   roots.folders.push_back(scratch.path());
   for (const NewFile& file : files) write_text_file(scratch.path() / file.inside, file.text);
   std::vector<Error> mistakes;
-  Library::load(roots, mistakes);
+  Library::load(roots, mistakes, {task});
   for (const Error& mistake : mistakes)
     for (const NewFile& file : files) {
       if (!mistake.where().starts_with(file.inside.generic_string())) continue;
@@ -211,7 +211,7 @@ ExitCode import_problem(const Arguments& arguments, Console& console) {
   for (const std::string& warning : imported.warnings) console.err << warning << "\n";
   for (const BddlNote& note : imported.notes) console.err << to_text(note) << "\n";
   source.files.push_back({fs::path("tasks") / (name + ".lua"), imported.text});
-  if (imported.refusal.empty()) imported.refusal = checker_says(arguments, source.files);
+  if (imported.refusal.empty()) imported.refusal = checker_says(arguments, name, source.files);
   if (!imported.refusal.empty()) {
     console.err << file << " cannot be a task here: " << imported.refusal << "\n";
     return kNo;

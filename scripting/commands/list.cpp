@@ -81,6 +81,17 @@ ExitCode print(const QueryResult& table, const Arguments& arguments, Console& co
   return kDone;
 }
 
+ExitCode list_hashes(const std::shared_ptr<const Library>& library, const std::string& what, Console& console) {
+  if (const Library::TaskInfo* task = library->task(what)) {
+    console.out << hash_of(library, *task) << "\n";
+    return kDone;
+  }
+  if (what != "tasks") throw UsageError("--hash is of tasks", "stampede list --hash, or stampede list TASK --hash");
+  for (const std::string& name : names_of(library->files(DefinitionKind::task)))
+    console.out << hash_of(library, *library->task(name)) << " " << name << "\n";
+  return kDone;
+}
+
 ExitCode list_task(const Library::TaskInfo& task, const Arguments& arguments, Console& console) {
   QueryResult table;
   table.columns = {"variation"};
@@ -115,6 +126,7 @@ ExitCode do_list(const Arguments& arguments, Console& console) {
   const std::string what = arguments.text("WHAT").empty() ? "tasks" : arguments.text("WHAT");
   const ScriptFile* object = library->file(DefinitionKind::object, what);
   const bool drawn = what == "objects" || object != nullptr;
+  if (arguments.flag("--hash")) return list_hashes(library, what, console);
   if (!arguments.text("--sheet").empty() && !drawn)
     throw UsageError("--sheet shows objects", "stampede list objects --sheet F");
   if (const Listing* shelf = shelf_named(what)) {
@@ -122,11 +134,7 @@ ExitCode do_list(const Arguments& arguments, Console& console) {
     return print(shelf_table(*library, *shelf), arguments, console);
   }
   if (what == kNumbers) return print(numbers_table(library->numbers()), arguments, console);
-  if (const Library::TaskInfo* task = library->task(what)) {
-    if (!arguments.flag("--hash")) return list_task(*task, arguments, console);
-    console.out << hash_of(library, *task) << "\n";
-    return kDone;
-  }
+  if (const Library::TaskInfo* task = library->task(what)) return list_task(*task, arguments, console);
   if (object != nullptr) return list_object(library, *object, arguments, console);
   std::vector<std::string> names = names_of(library->files(DefinitionKind::task));
   for (const std::string& name : names_of(library->files(DefinitionKind::object))) names.push_back(name);
@@ -149,7 +157,13 @@ CommandRow list_command() {
       {{"WHAT", "tasks, skills, predicates, objects, worlds, robots, numbers, or the name of a task or object", false,
         false}},
       {{"--sheet", "FILE", "of objects, or of one: a page of pictures (PNG)", Takes::output, "", {}, false},
-       {"--hash", "", "of a task: the hash of all files that its episodes are made of", Takes::flag, "", {}, false}},
+       {"--hash",
+        "",
+        "of a task: the hash of all files that its episodes are made of; without WHAT each task's, before its name",
+        Takes::flag,
+        "",
+        {},
+        false}},
       {"stampede list", "stampede list skills", "stampede list stack_blocks", "stampede list chest",
        "stampede list objects --sheet objects.png"},
       do_list};

@@ -81,8 +81,7 @@ ExitCode do_new(const Arguments& arguments, Console& console) {
   }
   check_name(name);
   make_own_folder(arguments);
-  std::vector<Error> complaints;  // of other files: no reason not to write this one
-  check_unused(*Library::load(roots_of(arguments), complaints), name);
+  check_unused(*words_of(arguments), name);  // mistakes of other files are no reason not to write this one
   const fs::path root = roots_of(arguments).folders.back();
   const fs::path path = word ? root / "worlds" / "types.lua" : root / kind->folder / (name + ".lua");
   if (word) {
@@ -93,7 +92,7 @@ ExitCode do_new(const Arguments& arguments, Console& console) {
     write_text_file(path, robot ? robot_beside(path, name) : new_file(kind->kind, name));
   }
   if (!arguments.list("--path").empty()) {
-    write_editor_files(root, *Library::load(roots_of(arguments), complaints));
+    write_editor_files(root, *words_of(arguments));
   }
   if (arguments.flag("--json")) {
     console.out << JsonText().object().field("path", path.string()).end().text();

@@ -48,7 +48,7 @@ EpisodeJob job_of(const Arguments& arguments, const std::shared_ptr<const Librar
 ExitCode plan_task(const Arguments& arguments, Console& console) {
   RunOptions options;
   read_symbol_options(arguments, options);
-  const auto library = load_usable_library(arguments);
+  const auto library = load_usable_library(arguments, {arguments.text("TASK")});
   const EpisodeJob job = job_of(arguments, library, options);
   options.seed = job.seed;
   PreparedEpisode prepared(library, job, options);

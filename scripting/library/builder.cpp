@@ -29,7 +29,7 @@ std::shared_ptr<Library> build_library(const Roots& roots, std::vector<Error>& c
                                        const BuilderOptions& options) {
   LibraryDraft draft(roots, complaints, options.left_out);
   check_file_names(draft);
-  draft.read_definitions();
+  draft.read_definitions(options.read);
   read_types(draft);
   declare_numbers(draft);
   declare_predicates(draft);

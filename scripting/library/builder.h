@@ -16,6 +16,7 @@ enum class Thorough { none, named, all };
 struct BuilderOptions {
   Thorough thorough = Thorough::none;
   std::vector<std::string> named = {};
+  std::vector<std::string> read = {};     // tasks; none named: all
   std::vector<ScriptFile> left_out = {};  // files that are read as if they were not there
 
   bool is_thorough(const std::string& task) const;

@@ -78,8 +78,9 @@ LibraryDraft::LibraryDraft(const Roots& roots, std::vector<Error>& complaints, c
 
 void LibraryDraft::remark(const Error& remark) { Complaints(library_->remarks_).add(remark); }
 
-void LibraryDraft::read_definitions() {
+void LibraryDraft::read_definitions(const std::vector<std::string>& tasks) {
   for (const ScriptFile& file : files()) {
+    if (file.kind == DefinitionKind::task && !tasks.empty() && !listed(tasks, file.name)) continue;
     if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::module || file.bytecode.empty()) continue;
     guarded_in(file, [&] {
       DefinitionState& state = fresh_state();

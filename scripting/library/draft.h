@@ -84,8 +84,8 @@ class LibraryDraft {
   NumberTable& numbers() { return numbers_; }
   void remark(const Error& remark);  // on what is no mistake; each once
 
-  // Runs each file but modules and types.
-  void read_definitions();
+  // Runs each file but modules and types; of tasks these, or all where none is named.
+  void read_definitions(const std::vector<std::string>& tasks);
   const Definitions& of(DefinitionKind kind) const;
   const Definition* find(DefinitionKind kind, const std::string& name) const;  // nullptr: none that could be read
   // Runs worlds/types.lua of one root; nullptr: it has failed.

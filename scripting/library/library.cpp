@@ -32,7 +32,13 @@ std::shared_ptr<const Library> Library::load(const Roots& roots) {
 
 std::shared_ptr<const Library> Library::load(const Roots& roots, std::vector<Error>& complaints,
                                              const std::vector<std::string>& tasks) {
-  return build_library(roots, complaints, {tasks.empty() ? Thorough::all : Thorough::named, tasks});
+  return build_library(roots, complaints,
+                       {.thorough = tasks.empty() ? Thorough::all : Thorough::named, .named = tasks});
+}
+
+std::shared_ptr<const Library> Library::load_words(const Roots& roots) {
+  std::vector<Error> untold;
+  return build_library(roots, untold, {});
 }
 
 namespace {
@@ -46,12 +52,12 @@ bool is_shared(const ScriptFile& file) {
 
 // Reads again without what has mistakes, until what is left has none but in tasks: each round finds who needed what the
 // rounds before left out.
-std::shared_ptr<const Library> Library::load_usable(const Roots& roots) {
+std::shared_ptr<const Library> Library::load_usable(const Roots& roots, const std::vector<std::string>& tasks) {
   std::vector<ScriptFile> left_out;
   std::vector<std::vector<Error>> rounds;
   for (;;) {
     std::vector<Error> complaints;
-    const std::shared_ptr<Library> library = build_library(roots, complaints, {.left_out = left_out});
+    const std::shared_ptr<Library> library = build_library(roots, complaints, {.read = tasks, .left_out = left_out});
     const std::size_t before = left_out.size();
     std::vector<Error> shared;
     for (const Error& error : complaints) {

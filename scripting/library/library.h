@@ -65,8 +65,11 @@ class Library {
                                              const std::vector<std::string>& tasks = {});
 
   // As load, but files with mistakes are left out, and what is said of them is only thrown at those who use them: see
-  // require_sound. What every task shares must be right: types, colours and words.
-  static std::shared_ptr<const Library> load_usable(const Roots& roots);
+  // require_sound. What every task shares must be right: types, colours and words. Of tasks only those named are read,
+  // where some are: all others are as unknown as their mistakes.
+  static std::shared_ptr<const Library> load_usable(const Roots& roots, const std::vector<std::string>& tasks = {});
+  // As load, but whatever mistakes there are: for those who ask for words of what can be read.
+  static std::shared_ptr<const Library> load_words(const Roots& roots);
   // Throws LibraryError with the complaints about these files and what they use, if there are any.
   void require_sound(const std::vector<const ScriptFile*>& files) const;
   // These files and those that they name, and so on: objects, worlds, robots, predicates, skills, modules. Of a task

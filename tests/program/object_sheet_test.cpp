@@ -50,4 +50,6 @@ TEST_CASE("a task's hash is the same each time, and another task's is another") 
   CHECK(first.out.size() == 33);
   CHECK(first.out == again.out);
   CHECK(first.out != say({"list", "close_drawer", "--hash"}).out);
+  CHECK(say({"list", "--hash"}).out.find(first.out.substr(0, 32) + " reach_target\n") != std::string::npos);
+  CHECK(say({"list", "chest", "--hash"}).code == kUsage);
 }

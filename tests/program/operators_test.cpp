@@ -150,7 +150,7 @@ const char* const kMine =
 
 }  // namespace
 
-TEST_CASE("operators learned from labelled skills make sound plans that physics carries out") {
+TEST_CASE("operators learned from labelled skills make sound plans that physics carries out", "[operators]") {
   const Said said = operators().score("conditions", operators().answered("operators", "conditions"),
                                       {"--physics", "2", "--root", kRoot});
   const auto figures = figures_of(said);
@@ -163,7 +163,7 @@ TEST_CASE("operators learned from labelled skills make sound plans that physics 
   CHECK(says(about(said, "action_pick"), "stands for pick (by name)"));
 }
 
-TEST_CASE("operators learned without labels are found by what they do") {
+TEST_CASE("operators learned without labels are found by what they do", "[operators]") {
   const Said said = operators().score("segments_and_conditions",
                                       operators().answered("operators_unlabelled", "segments_and_conditions"));
   const auto figures = figures_of(said);
@@ -173,7 +173,7 @@ TEST_CASE("operators learned without labels are found by what they do") {
   CHECK(figures.at("effects_precision") > 0.7);
 }
 
-TEST_CASE("the true domain as an answer has full marks, one without preconditions has not") {
+TEST_CASE("the true domain as an answer has full marks, one without preconditions has not", "[operators]") {
   const std::string truth = true_domain("conditions");
   const auto full = figures_of(operators().score("conditions", operators().answers("conditions", truth)));
   for (const char* name : {"preconditions_f1", "effects_f1", "applicable_f1", "changes_f1", "plans_sound",
@@ -189,7 +189,7 @@ TEST_CASE("the true domain as an answer has full marks, one without precondition
   CHECK(poor.at("plans_sound") < 1);
 }
 
-TEST_CASE("another's predicates are recognised by what holds") {
+TEST_CASE("another's predicates are recognised by what holds", "[operators]") {
   const Said said = operators().score("inventions", operators().answers("inventions", kMine, disguised_rows()));
   const auto figures = figures_of(said);
   CHECK(about(said, "predicate_busy") == "busy = (not (hand_empty the hand))");
@@ -203,7 +203,7 @@ TEST_CASE("another's predicates are recognised by what holds") {
   CHECK(says(about(said, "action_draw"), "stands for open"));
 }
 
-TEST_CASE("to leave out what one is unsure of is no way to agree the more") {
+TEST_CASE("to leave out what one is unsure of is no way to agree the more", "[operators]") {
   const Json all = disguised_rows();
   const auto some = [&](auto kept) {
     Json rows = Json::array();
@@ -224,7 +224,7 @@ TEST_CASE("to leave out what one is unsure of is no way to agree the more") {
   check_refused(operators().score("inventions", operators().answers("inventions", kMine, twice)), "is answered twice");
 }
 
-TEST_CASE("domains that are none are refused, with the place") {
+TEST_CASE("domains that are none are refused, with the place", "[operators]") {
   const auto refused = [](const std::string& domain, const std::string& what) {
     check_refused(operators().score("conditions", operators().answers("conditions", domain)), what);
   };
@@ -238,7 +238,7 @@ TEST_CASE("domains that are none are refused, with the place") {
   check_refused(operators().score("conditions", operators().path("none.json")), "'domain' is missing");
 }
 
-TEST_CASE("answers for another data set are refused") {
+TEST_CASE("answers for another data set are refused", "[operators]") {
   const std::string other =
       research::dataset_id(PlainFile::open(operators().path("other_conditions_hidden/hidden.db")));
   check_refused(operators().score("conditions",
@@ -246,7 +246,7 @@ TEST_CASE("answers for another data set are refused") {
                 "answers for another data set");
 }
 
-TEST_CASE("actions without a match score nothing and break nothing") {
+TEST_CASE("actions without a match score nothing and break nothing", "[operators]") {
   const auto figures = figures_of(operators().score(
       "conditions",
       operators().answers("conditions",
@@ -259,7 +259,7 @@ TEST_CASE("actions without a match score nothing and break nothing") {
   CHECK(figures.at("action_sing") == 0);
 }
 
-TEST_CASE("what classifiers cannot have said is refused, with the row") {
+TEST_CASE("what classifiers cannot have said is refused, with the row", "[operators]") {
   const std::int64_t episode = operators()
                                    .hidden("inventions")
                                    .query("SELECT min(episode) AS n FROM episodes WHERE split = 'test'")

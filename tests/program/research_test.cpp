@@ -114,8 +114,7 @@ std::string id_of(const std::string& name) { return research::dataset_id(given_f
 
 }  // namespace
 
-// One test case: each is a program of its own, and what is made would be made again.
-TEST_CASE("data sets for research problems") {
+TEST_CASE("data sets for research problems", "[research]") {
   SECTION("every problem has both parts, a page for each, and an example of answers") {
     for (const ResearchProblem& problem : all_problems()) {
       INFO(problem.name);
@@ -430,7 +429,7 @@ TEST_CASE("data sets for research problems") {
   }
 }
 
-TEST_CASE("the same episodes make the same bytes, in whatever order they are stored") {
+TEST_CASE("the same episodes make the same bytes, in whatever order they are stored", "[research]") {
   const std::string other = made().path("other.db");
   for (const char* task : {"stack_blocks", "pick_and_lift"}) {
     REQUIRE(say({"run", task, "--root", kRoot, "--out", other, "--episodes", "4", "--seed", "700", "--behaviour",
@@ -447,7 +446,7 @@ TEST_CASE("the same episodes make the same bytes, in whatever order they are sto
   }
 }
 
-TEST_CASE("recordings serve the problems that they have something for, and no others") {
+TEST_CASE("recordings serve the problems that they have something for, and no others", "[research]") {
   const std::string real = made().recordings();
   std::string served;
   for (const ResearchProblem& problem : all_problems()) {
@@ -464,7 +463,7 @@ TEST_CASE("recordings serve the problems that they have something for, and no ot
   CHECK(served == "segments_supervised segments motions behaviour controllers transfer transition_models ");
 }
 
-TEST_CASE("baselines leave out what no recording has, and say where only some have it") {
+TEST_CASE("baselines leave out what no recording has, and say where only some have it", "[research]") {
   for (const research::Baseline& baseline : research::all_baselines())
     for (const std::string& problem : baseline.problems) {
       const std::string name = "real_" + problem, file = made().path(baseline.name + "_" + name + ".json");
@@ -489,7 +488,7 @@ TEST_CASE("baselines leave out what no recording has, and say where only some ha
   CHECK(says(mixed.err, "all measured alike"));
 }
 
-TEST_CASE("pages say which episodes are simulated and which recorded, and who labelled them") {
+TEST_CASE("pages say which episodes are simulated and which recorded, and who labelled them", "[research]") {
   const auto page = [](const std::string& catalogue, const std::string& name) {
     const Said said = made().dataset("segments_supervised", catalogue, name);
     INFO(said.err);
@@ -528,7 +527,7 @@ TEST_CASE("pages say which episodes are simulated and which recorded, and who la
   CHECK_FALSE(says(both, "never by people"));
 }
 
-TEST_CASE("a folder is written to if it is new, empty, or holds the same problem's data set") {
+TEST_CASE("a folder is written to if it is new, empty, or holds the same problem's data set", "[research]") {
   const Folder folder;
   const auto dataset = [&](const std::string& problem, const std::string& out, const std::string& hidden) {
     return say({"dataset", problem, made().path("demos.db"), "--out", out, "--hidden", hidden});
@@ -568,7 +567,7 @@ TEST_CASE("a folder is written to if it is new, empty, or holds the same problem
   CHECK(file_text(given + "/notes.txt") == "what I saw");
 }
 
-TEST_CASE("neither part of a data set may lie in the other, whatever the folders are called") {
+TEST_CASE("neither part of a data set may lie in the other, whatever the folders are called", "[research]") {
   const Folder folder;
   const std::string out = folder / "out";
   fs::create_directories(out);
@@ -590,7 +589,7 @@ TEST_CASE("neither part of a data set may lie in the other, whatever the folders
   CHECK(say({"dataset", "segments", made().path("demos.db"), "--out", out, "--hidden", out + "_hidden"}).code == kDone);
 }
 
-TEST_CASE("a catalogue without successes serves no problem of demonstrations") {
+TEST_CASE("a catalogue without successes serves no problem of demonstrations", "[research]") {
   const std::string failed = made().path("failed.db");
   say({"run", "stack_blocks", "--root", kRoot, "--out", failed, "--episodes", "4", "--seed", "700", "--behaviour",
        "random_applicable", "--skills", "1"});
@@ -600,7 +599,7 @@ TEST_CASE("a catalogue without successes serves no problem of demonstrations") {
   CHECK(made().dataset("rewards", failed, "failed").code == kDone);
 }
 
-TEST_CASE("pictures: with their cameras, and none that tells where a skill begins") {
+TEST_CASE("pictures: with their cameras, and none that tells where a skill begins", "[research]") {
   for (const auto& [which, file] : {std::pair{"keyframes", "some.db"}, {"all", "every.db"}}) {
     INFO(which);
     const std::string seen = made().path(file);
@@ -634,7 +633,7 @@ TEST_CASE("pictures: with their cameras, and none that tells where a skill begin
   CHECK(says(file_text(made().given("segments") + "/README.md"), "Pictures: not of this problem"));
 }
 
-TEST_CASE("the list of problems, for people and programs") {
+TEST_CASE("the list of problems, for people and programs", "[research]") {
   const Said text = say({"dataset", "--list"}), json = say({"dataset", "--list", "--json"});
   CHECK(says(text.out, "transition_models"));
   const auto problems = nlohmann::json::parse(json.out);

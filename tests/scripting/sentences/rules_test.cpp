@@ -63,7 +63,7 @@ class Needs {
 
 }  // namespace
 
-TEST_CASE("without any one of its rules, the check lets something wrong pass") {
+TEST_CASE("without any one of its rules, the check lets something wrong pass", "[meanings]") {
   Needs needs;
   for (const said::Sentence& one : said::all())
     if (!one.kind.empty()) needs.add(*one.checker, one.text);

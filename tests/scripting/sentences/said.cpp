@@ -15,8 +15,7 @@ void read(const char* file, bool unseen, std::vector<Sentence>& sentences) {
       nlohmann::json::parse(read_text_file(STAMPEDE_SOURCE_DIR "/tests/scripting/sentences/data/" + std::string(file)));
   for (const nlohmann::json& one : tasks) {
     const std::string task = one.at("task"), variation = one.at("variation");
-    const auto checker = std::make_shared<const SentenceChecker>(
-        meaning_of(shipped::library(), task, variation, 0, sentences_of(shipped::library(), task)));
+    const auto checker = std::make_shared<const SentenceChecker>(shipped::meaning(task, variation));
     for (const std::string text : one.at("good")) sentences.push_back({task, text, "", checker, unseen});
     for (const nlohmann::json& bad : one.at("bad"))
       sentences.push_back({task, bad.at("text"), bad.at("kind"), checker, unseen});

@@ -26,7 +26,7 @@ Tally tally_of(bool unseen) {
 
 }  // namespace
 
-TEST_CASE("what is said wrongly is turned down, all of it") {
+TEST_CASE("what is said wrongly is turned down, all of it", "[meanings]") {
   int wrong = 0;
   for (const said::Sentence& one : said::all()) {
     if (one.kind.empty()) continue;
@@ -37,7 +37,7 @@ TEST_CASE("what is said wrongly is turned down, all of it") {
   CHECK(wrong == 980);
 }
 
-TEST_CASE("most of what is said rightly passes") {
+TEST_CASE("most of what is said rightly passes", "[meanings]") {
   const Tally seen = tally_of(false), unseen = tally_of(true);
   INFO(seen.passed << " of " << seen.right << " and " << unseen.passed << " of " << unseen.right);
   CHECK(seen.passed >= 340);

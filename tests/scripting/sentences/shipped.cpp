@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <map>
+#include <mutex>
 #include <thread>
 
 namespace shipped {
@@ -16,13 +17,37 @@ std::shared_ptr<const Library> library() {
 
 namespace {
 
+// Values by key, each made once, by whichever thread asks first.
+template <typename Key, typename Made>
+class Kept {
+ public:
+  template <typename Make>
+  const Made& get(const Key& key, const Make& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto found = kept_.find(key); found != kept_.end()) return found->second;
+    }
+    Made made = make();
+    const std::lock_guard lock(mutex_);
+    return kept_.try_emplace(key, std::move(made)).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<Key, Made> kept_;
+};
+
+const std::vector<OwnSentences>& sentences(const std::string& task) {
+  static Kept<std::string, std::vector<OwnSentences>> kept;
+  return kept.get(task, [&] { return sentences_of(library(), task); });
+}
+
 std::vector<Meaning> meanings_of(const std::string& task) {
-  const std::vector<OwnSentences> all = sentences_of(library(), task);
-  std::vector<Meaning> made = {meaning_of(library(), task, all.front().variation, 0, all)};
-  if (all.size() > 1) made.push_back(meaning_of(library(), task, all.back().variation, 0, all));
+  const std::vector<OwnSentences>& all = sentences(task);
+  std::vector<Meaning> made = {meaning(task, all.front().variation)};
+  if (all.size() > 1) made.push_back(meaning(task, all.back().variation));
   if (std::getenv("STAMPEDE_ALL_VARIATIONS") != nullptr)
-    for (std::size_t i = 1; i + 1 < all.size(); ++i)
-      made.push_back(meaning_of(library(), task, all[i].variation, 0, all));
+    for (std::size_t i = 1; i + 1 < all.size(); ++i) made.push_back(meaning(task, all[i].variation));
   return made;
 }
 
@@ -48,12 +73,12 @@ const std::vector<Meaning>& meanings() {
   return all;
 }
 
-const Meaning& meaning(const std::string& task) {
-  static std::map<std::string, Meaning> kept;
-  const auto found = kept.find(task);
-  if (found != kept.end()) return found->second;
-  const std::vector<OwnSentences> all = sentences_of(library(), task);
-  return kept.emplace(task, meaning_of(library(), task, all.front().variation, 0, all)).first->second;
+const Meaning& meaning(const std::string& task, const std::string& variation) {
+  static Kept<std::pair<std::string, std::string>, Meaning> kept;
+  return kept.get({task, variation}, [&] {
+    const std::vector<OwnSentences>& all = sentences(task);
+    return meaning_of(library(), task, variation.empty() ? all.front().variation : variation, 0, all);
+  });
 }
 
 }  // namespace shipped

@@ -16,7 +16,7 @@ std::shared_ptr<const stampede::Library> library();
 // Of each task some variations: the first, and the last where there are several.
 const std::vector<stampede::Meaning>& meanings();
 
-// Of one: the names are those of `meanings`.
-const stampede::Meaning& meaning(const std::string& task);
+// Of one variation; of the task's first, where none is named.
+const stampede::Meaning& meaning(const std::string& task, const std::string& variation = {});
 
 }  // namespace shipped

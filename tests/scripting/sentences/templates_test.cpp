@@ -5,7 +5,7 @@
 
 using namespace stampede;
 
-TEST_CASE("every sentence of every shipped task passes") {
+TEST_CASE("every sentence of every shipped task passes", "[meanings]") {
   int sentences = 0;
   for (const Meaning& meaning : shipped::meanings()) {
     const SentenceChecker checker(meaning);
@@ -20,7 +20,7 @@ TEST_CASE("every sentence of every shipped task passes") {
   CHECK(sentences > 400);
 }
 
-TEST_CASE("sentences pass that nobody told the parser of") {
+TEST_CASE("sentences pass that nobody told the parser of", "[meanings]") {
   int passed = 0, sentences = 0;
   for (const Meaning& meaning : shipped::meanings())
     for (std::size_t i = 0; i < meaning.own.size(); ++i) {
