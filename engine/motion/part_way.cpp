@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kLayers = 16;            // places of the part that are looked at, at least
 constexpr double kLayerTurn = 0.25;    // rad from one to the next, at most
-constexpr double kMostJump = 0.5;      // rad of a joint from one to the next
+constexpr double kLayerJump = 0.5;     // rad of a joint from one to the next
 constexpr int kMostTurns = 2;          // steps of the handle in the hand from one to the next
 constexpr double kLeastStep = 0.05;    // rad, of those
 constexpr double kPivotCost = 0.3;     // of a rad that the handle turns in the hand, beside one of a joint
@@ -25,7 +25,7 @@ constexpr double kLinksApart = 0.003;  // m a joint that links keep from each ot
 constexpr int kMostElbows = 4;         // steps of an elbow either way from where it would come to be by itself
 constexpr double kElbowStep = 0.15;    // rad of all joints together, of those
 
-struct Node {
+struct LayerNode {
   JointVector q;
   JointVector elbow;  // how the joints go together while the tip stands still, a unit vector; empty: unknown
   double cost = std::numeric_limits<double>::infinity();
@@ -110,7 +110,7 @@ class WaySearch {
         elbow_turns_(elbows > 0),
         most_(elbow_turns_ ? elbows : most_turns(way)),
         next_(elbow_turns_ ? 1 : kMostTurns),
-        layers_(count_ + 1, std::vector<Node>(static_cast<std::size_t>(2 * most_) + 1)),
+        layers_(count_ + 1, std::vector<LayerNode>(static_cast<std::size_t>(2 * most_) + 1)),
         holding_(with_part_held(state, start, way)),
         links_(holding_) {
     layers_[0][static_cast<std::size_t>(most_)] = {start, elbow_turns_ ? elbow_of(arm_, start, {}) : JointVector{}, 0,
@@ -131,7 +131,7 @@ class WaySearch {
  private:
   double share_of(std::size_t layer) const { return static_cast<double>(layer) / static_cast<double>(count_); }
 
-  Node& node_at(std::size_t layer, int step) { return layers_[layer][static_cast<std::size_t>(step + most_)]; }
+  LayerNode& node_at(std::size_t layer, int step) { return layers_[layer][static_cast<std::size_t>(step + most_)]; }
 
   CollisionState with_part_at(double place) const {
     CollisionState there = holding_;
@@ -169,13 +169,13 @@ class WaySearch {
   // From node `i` of the layer before to node `j`, if that costs less than how it is reached so far.
   template <typename Free>
   void try_step(std::size_t k, int i, int j, const Transform& tip, const Free& free) {
-    const Node& from = node_at(k - 1, i);
-    Node& node = node_at(k, j);
+    const LayerNode& from = node_at(k - 1, i);
+    LayerNode& node = node_at(k, j);
     const double bend = elbow_turns_ ? 0 : kPivotCost * step_ * (j - i);
     if (from.cost + bend * bend >= node.cost) return;
     const JointVector guess = elbow_turns_ ? JointVector(from.q + (j - i) * kElbowStep * from.elbow) : from.q;
     const auto q = arm_.solve(tip, guess, key_.with(static_cast<std::int64_t>(k)), 0);
-    if (!q || joint_gap(*q, from.q) > kMostJump) return;
+    if (!q || joint_gap(*q, from.q) > kLayerJump) return;
     const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
     if (cost >= node.cost || links_.links_within(*q, kLinksApart) || !free(from.q, *q)) return;
     node = {*q, elbow_turns_ ? elbow_of(arm_, *q, from.elbow) : JointVector{}, cost, i + most_};
@@ -183,11 +183,11 @@ class WaySearch {
 
   // The cheapest node of a layer from which the hand gets away.
   std::optional<int> best_end(std::size_t end) {
-    std::vector<Node>& ends = layers_[end];
+    std::vector<LayerNode>& ends = layers_[end];
     const CollisionState there = with_part_at(share_of(end));
     for (;;) {
-      const auto best =
-          std::min_element(ends.begin(), ends.end(), [](const Node& a, const Node& b) { return a.cost < b.cost; });
+      const auto best = std::min_element(ends.begin(), ends.end(),
+                                         [](const LayerNode& a, const LayerNode& b) { return a.cost < b.cost; });
       if (best->from < 0) return std::nullopt;
       if (can_retreat(there, best->q, way_.retreat, key_.with("retreat"))) return static_cast<int>(best - ends.begin());
       *best = {};
@@ -198,7 +198,7 @@ class WaySearch {
     std::vector<double> turns(end + 1);
     std::vector<JointVector> arm_at(end + 1, start_);
     for (std::size_t k = end; k > 0; --k) {
-      const Node& node = layers_[k][static_cast<std::size_t>(at)];
+      const LayerNode& node = layers_[k][static_cast<std::size_t>(at)];
       turns[k] = elbow_turns_ ? 0 : (at - most_) * step_;
       arm_at[k] = node.q;
       at = node.from;
@@ -217,7 +217,7 @@ class WaySearch {
   double step_;  // rad, from a turn of the handle to the next
   bool elbow_turns_;
   int most_, next_;  // steps either way in all, and from a layer to the next
-  std::vector<std::vector<Node>> layers_;
+  std::vector<std::vector<LayerNode>> layers_;
   CollisionState holding_;
   CollisionQuery links_;
 };
