@@ -17,7 +17,7 @@ std::shared_ptr<const Library> library() {
 
 namespace {
 
-// Values by key, each made once, by whichever thread asks first.
+// Values by key, kept once made. Threads make those of different keys side by side.
 template <typename Key, typename Made>
 class Kept {
  public:
@@ -75,10 +75,9 @@ const std::vector<Meaning>& meanings() {
 
 const Meaning& meaning(const std::string& task, const std::string& variation) {
   static Kept<std::pair<std::string, std::string>, Meaning> kept;
-  return kept.get({task, variation}, [&] {
-    const std::vector<OwnSentences>& all = sentences(task);
-    return meaning_of(library(), task, variation.empty() ? all.front().variation : variation, 0, all);
-  });
+  const std::vector<OwnSentences>& all = sentences(task);
+  const std::string& named = variation.empty() ? all.front().variation : variation;
+  return kept.get({task, named}, [&] { return meaning_of(library(), task, named, 0, all); });
 }
 
 }  // namespace shipped
