@@ -45,7 +45,7 @@ void Catalogue::close() {
 
 std::int64_t Catalogue::add(const EpisodeRecord& episode, const EngineInfo& engine) {
   if (const auto id = add_if_new(episode, engine)) return *id;
-  throw CatalogueError(impl_->database.path(), "an episode with the key " + episode.key + " is already there",
+  throw CatalogueError(impl_->database.path(), "an episode with the key " + episode.made.key + " is already there",
                        "its task, variation, seed and options are the same: nothing needs to be added");
 }
 
@@ -61,7 +61,7 @@ std::optional<std::int64_t> Catalogue::add_if_new(const EpisodeRecord& episode, 
   if (!impl_->writer) impl_->writer = std::make_unique<EpisodeWriter>(database);
   try {
     database.run("BEGIN IMMEDIATE");
-    bool there = find(episode.key).has_value();
+    bool there = find(episode.made.key).has_value();
     const std::int64_t id = database.number("SELECT coalesce(max(id), 0) + 1 FROM episode");
     if (!there) impl_->writer->write(id, episode, engine);
     if (!there && key) {

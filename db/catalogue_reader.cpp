@@ -112,8 +112,9 @@ void EpisodeReader::read_episode() {
   EpisodeRecord& e = record_;
   std::string split, outcome, reason, scene, source;
   std::int64_t frames = 0, stored = 0, physics_hz = 0, frame_hz = 0;
-  row.read(e.key, e.task, e.world, e.variation, e.seed, split, outcome, reason, e.detail, e.beside_goal, physics_hz,
-           frame_hz, e.steps, e.draws, e.state_hash, run_, scene, e.wall_s, e.physics_wall_s, frames, stored, source);
+  row.read(e.made.key, e.task, e.world, e.variation, e.seed, split, outcome, reason, e.detail, e.beside_goal,
+           physics_hz, frame_hz, e.steps, e.made.draws, e.state_hash, run_, scene, e.made.wall_s, e.made.physics_wall_s,
+           frames, stored, source);
   e.real = source == "real";
   const std::string here = "episode " + std::to_string(id_) + ", ";
   require_within(database_.path(), here + "physics_hz", physics_hz, 1, kMostHz);
@@ -121,10 +122,10 @@ void EpisodeReader::read_episode() {
   require_within(database_.path(), here + "frames", frames, stored, stored);  // memory is taken for as many
   require_within(database_.path(), here + "steps", e.steps, 0, std::int64_t{1} << 40);
   e.physics_hz = static_cast<int>(physics_hz), e.frame_hz = static_cast<int>(frame_hz);
-  e.split = known_word(database_, "split", split, split_from(split));
+  e.made.split = known_word(database_, "split", split, split_from(split));
   e.outcome = known_word(database_, "outcome", outcome, outcome_from(outcome));
   e.reason = known_word(database_, "reason", reason, reason_from(reason));
-  e.scene_document = unpack_scene(database_, scene);
+  e.scene.document = unpack_scene(database_, scene);
   e.frames.resize(static_cast<std::size_t>(frames));
   sql::Statement axes(database_, "SELECT axis, value FROM variation_axis WHERE task = ?1 AND variation = ?2");
   for (axes.start(e.task, e.variation); axes.step();) {
@@ -140,27 +141,27 @@ void EpisodeReader::read_run() {
   for (options.start(run_); options.step();) {
     std::string name, value;
     options.read(name, value);
-    record_.options[name] = value;
+    record_.made.options[name] = value;
   }
   sql::Statement definitions(database_,
                              "SELECT d.kind, d.name, d.path, d.source, d.hash FROM engine_run_definition r "
                              "JOIN definition d USING (kind, name, hash) WHERE r.engine_run = ?1 "
                              "ORDER BY d.kind, d.name, d.hash");
   for (definitions.start(run_); definitions.step();) {
-    DefinitionRecord& d = record_.definitions.emplace_back();
+    DefinitionRecord& d = record_.made.definitions.emplace_back();
     definitions.read(d.kind, d.name, d.path, d.source, d.hash);
   }
   sql::Statement predicates(database_, "SELECT name, kind FROM predicate WHERE engine_run = ?1");
   for (predicates.start(run_); predicates.step();) {
     std::string name, kind;
     predicates.read(name, kind);
-    record_.predicates[name] = kind;
+    record_.scene.predicates[name] = kind;
   }
 }
 
 void EpisodeReader::read_objects() {
   each("name, kind, class, type, body, part, size_x, size_y, size_z", "object", "ordinal", [&](sql::Statement& row) {
-    Object& o = record_.objects.emplace_back();
+    Object& o = record_.scene.objects.emplace_back();
     std::string kind;
     row.read(o.name, kind, o.class_name, o.type, o.body, o.part, o.size.x(), o.size.y(), o.size.z());
     o.kind = known_word(database_, "kind", kind, object_kind_from(kind));
@@ -169,13 +170,13 @@ void EpisodeReader::read_objects() {
     std::int64_t object = 0;
     std::string trait;
     row.read(object, trait);
-    at(record_.objects, object, "object_trait").traits.push_back(trait);
+    at(record_.scene.objects, object, "object_trait").traits.push_back(trait);
   });
   each("object, typeof(value), name, value", "object_attribute", "object, name", [&](sql::Statement& row) {
     std::int64_t object = 0;
     std::string type, name, value;
     row.read(object, type, name);
-    Object& owner = at(record_.objects, object, "object_attribute");
+    Object& owner = at(record_.scene.objects, object, "object_attribute");
     if (type == "text") {
       row.read(object, type, name, value);
       owner.attributes[name] = value;
@@ -188,24 +189,24 @@ void EpisodeReader::read_objects() {
 }
 
 void EpisodeReader::read_names() {
-  each("name", "posed", "ordinal", [&](sql::Statement& row) { row.read(record_.posed.emplace_back()); });
-  each("name", "hand", "ordinal", [&](sql::Statement& row) { row.read(record_.hands.emplace_back()); });
+  each("name", "posed", "ordinal", [&](sql::Statement& row) { row.read(record_.scene.posed.emplace_back()); });
+  each("name", "hand", "ordinal", [&](sql::Statement& row) { row.read(record_.scene.hands.emplace_back()); });
   each("name, body, part, kind, unit, lower, upper, driven", "joint", "ordinal", [&](sql::Statement& row) {
-    JointName& j = record_.joints.emplace_back();
+    JointName& j = record_.scene.joints.emplace_back();
     row.read(j.name, j.part.body, j.part.part, j.kind, j.unit, j.lower, j.upper, j.driven);
   });
 }
 
 void EpisodeReader::read_masks() {
   each("instance, name, object, class, semantic", "mask", "instance", [&](sql::Statement& row) {
-    MaskEntry& m = record_.masks.emplace_back();
+    MaskEntry& m = record_.scene.masks.emplace_back();
     row.read(m.instance, m.name, m.object, m.class_name, m.semantic);
   });
 }
 
 void EpisodeReader::read_cameras() {
   each(kCameraColumns, "camera", "ordinal",
-       [&](sql::Statement& row) { read_camera(row, record_.cameras.emplace_back()); });
+       [&](sql::Statement& row) { read_camera(row, record_.scene.cameras.emplace_back()); });
 }
 
 void EpisodeReader::read_channels() {
@@ -235,11 +236,11 @@ void EpisodeReader::read_channels() {
 }
 
 void EpisodeReader::read_frames() {
-  const std::size_t joints = record_.joints.size();
+  const std::size_t joints = record_.scene.joints.size();
   for (FrameRecord& frame : record_.frames) {
     frame.joint_position.resize(joints), frame.joint_velocity.resize(joints), frame.joint_effort.resize(joints);
-    frame.object_pose.resize(record_.posed.size());
-    frame.hands.resize(record_.hands.size());
+    frame.object_pose.resize(record_.scene.posed.size());
+    frame.hands.resize(record_.scene.hands.size());
   }
   each("frame, step, reward, done", "frame", "frame", [&](sql::Statement& row) {
     std::int64_t frame = 0;
@@ -303,10 +304,10 @@ void EpisodeReader::read_track(const std::string& thing, const std::string& tabl
 }
 
 void EpisodeReader::read_poses() {
-  read_track("posed", "object_state", record_.posed.size(),
+  read_track("posed", "object_state", record_.scene.posed.size(),
              [](FrameRecord& frame) -> std::vector<Pose>& { return frame.object_pose; });
-  read_track("camera", "camera_pose", record_.cameras.size(), [this](FrameRecord& frame) -> std::vector<Pose>& {
-    frame.camera_pose.resize(record_.cameras.size());
+  read_track("camera", "camera_pose", record_.scene.cameras.size(), [this](FrameRecord& frame) -> std::vector<Pose>& {
+    frame.camera_pose.resize(record_.scene.cameras.size());
     return frame.camera_pose;
   });
 }

@@ -19,13 +19,13 @@ class Checker {
         path_(path),
         where_("episode " + std::to_string(id) + ", "),
         frames_(static_cast<std::int64_t>(episode.frames.size())),
-        segments_(static_cast<std::int64_t>(episode.segments.size())) {}
+        segments_(static_cast<std::int64_t>(episode.labels.segments.size())) {}
 
   void check() const {
     frames();
     segments();
-    for (const FactRecord& f : e_.facts) interval("a fact", f);
-    for (const FactRecord& f : e_.observed_facts) interval("an observed fact", f);
+    for (const FactRecord& f : e_.labels.facts) interval("a fact", f);
+    for (const FactRecord& f : e_.labels.observed_facts) interval("an observed fact", f);
     passages();
     names();
   }
@@ -60,12 +60,12 @@ class Checker {
       const auto values = static_cast<std::int64_t>(channel.steps.size() * channel.components.size());
       within("a sensor's number of values", static_cast<std::int64_t>(channel.values.size()), values, values);
     }
-    for (const auto& [method, list] : e_.keyframes)
+    for (const auto& [method, list] : e_.labels.keyframes)
       for (const std::int64_t frame : list) within("a keyframe", frame, 0, frames_ - 1);
   }
   void segments() const {
     std::int64_t ordinal = 0;
-    for (const SegmentRecord& s : e_.segments) {
+    for (const SegmentRecord& s : e_.labels.segments) {
       within("a segment's ordinal", s.ordinal, ordinal, ordinal);
       within("a segment's parent", s.parent, -1, ordinal - 1);
       span("a segment's span", s.span, e_.steps, frames_);
@@ -73,23 +73,23 @@ class Checker {
     }
     // An undone try counts on a time line of its own, which went on for no longer than a very long episode.
     constexpr std::int64_t kLong = std::int64_t{1} << 40;
-    for (const AttemptRecord& a : e_.attempts) {
+    for (const AttemptRecord& a : e_.labels.attempts) {
       within("an undone try's place", a.before_segment, 0, segments_);
       within("an undone try's number", a.try_number, 1, kLong);
       span("an undone try's span", a.segment.span, kLong, kLong);
     }
   }
   void passages() const {
-    for (const ViaRecord& v : e_.vias) {
+    for (const ViaRecord& v : e_.labels.vias) {
       within("a via-point's segment", v.segment, 0, segments_ - 1);
       within("a via-point's step", v.step, 0, e_.steps);
     }
-    for (const ContactRecord& c : e_.contacts) span("a contact", {0, 0, c.first_frame, c.end_frame}, 0, frames_);
-    for (const GraspRecord& g : e_.grasps) within("a grasp's segment", g.segment, 0, segments_ - 1);
-    for (const LanguageRecord& l : e_.language) within("a sentence's segment", l.segment, -1, segments_ - 1);
+    for (const ContactRecord& c : e_.labels.contacts) span("a contact", {0, 0, c.first_frame, c.end_frame}, 0, frames_);
+    for (const GraspRecord& g : e_.labels.grasps) within("a grasp's segment", g.segment, 0, segments_ - 1);
+    for (const LanguageRecord& l : e_.labels.language) within("a sentence's segment", l.segment, -1, segments_ - 1);
   }
   void names() const {
-    for (const Camera& c : e_.cameras) {
+    for (const Camera& c : e_.scene.cameras) {
       within("a camera's width", c.width, 1, kMostPixels);
       within("a camera's height", c.height, 1, kMostPixels);
       within("a camera's part", c.mount_part, -1, kMostParts);
@@ -97,17 +97,17 @@ class Checker {
       finite("a camera's lens", c.distortion);
       finite("a camera's mount", std::span(c.mount_from_camera.matrix().data(), 16));
     }
-    for (const JointName& j : e_.joints) {
+    for (const JointName& j : e_.scene.joints) {
       within("a joint's body", j.part.body, -1, kMostParts);
       within("a joint's part", j.part.part, 0, kMostParts);
     }
-    for (const MaskEntry& m : e_.masks) {
+    for (const MaskEntry& m : e_.scene.masks) {
       within("a mask's instance", m.instance, 1, kMostInstances);
       within("a mask's class", m.semantic, 1, kMostInstances);
     }
     for (const ImageTimeRecord& i : e_.image_times) {
       within("a picture's frame", i.frame, 0, frames_ - 1);
-      within("a picture's camera", i.camera, 0, static_cast<std::int64_t>(e_.cameras.size()) - 1);
+      within("a picture's camera", i.camera, 0, static_cast<std::int64_t>(e_.scene.cameras.size()) - 1);
     }
   }
   void finite(const char* what, std::span<const double> values) const {

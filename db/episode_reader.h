@@ -132,7 +132,7 @@ class EpisodeReader {
   std::int64_t id_;
   EpisodeRecord record_;
   std::string run_;
-  std::map<std::int64_t, std::size_t> segment_at_;  // ordinal -> index in record_.segments
+  std::map<std::int64_t, std::size_t> segment_at_;  // ordinal -> index in record_.labels.segments
 };
 
 // See Catalogue::read_arrays.

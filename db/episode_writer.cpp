@@ -17,29 +17,30 @@ void require(bool condition, const EpisodeRecord& episode, const std::string& co
 }  // namespace
 
 void check_record(const EpisodeRecord& episode) {
-  require(!episode.key.empty(), episode, "it has no key");
+  require(!episode.made.key.empty(), episode, "it has no key");
   require(episode.physics_hz > 0 && episode.frame_hz > 0, episode, "its rates must be above zero");
   for (const FrameRecord& frame : episode.frames) {
-    const bool joints = frame.joint_position.size() == episode.joints.size() &&
-                        frame.joint_velocity.size() == episode.joints.size() &&
-                        frame.joint_effort.size() == episode.joints.size();
+    const bool joints = frame.joint_position.size() == episode.scene.joints.size() &&
+                        frame.joint_velocity.size() == episode.scene.joints.size() &&
+                        frame.joint_effort.size() == episode.scene.joints.size();
     require(joints, episode, "a frame has another number of joints than the episode");
-    require(frame.object_pose.size() == episode.posed.size(), episode, "a frame has another number of posed objects");
-    require(frame.hands.size() == episode.hands.size(), episode, "a frame has another number of hands");
-    require(frame.camera_pose.empty() || frame.camera_pose.size() == episode.cameras.size(), episode,
+    require(frame.object_pose.size() == episode.scene.posed.size(), episode,
+            "a frame has another number of posed objects");
+    require(frame.hands.size() == episode.scene.hands.size(), episode, "a frame has another number of hands");
+    require(frame.camera_pose.empty() || frame.camera_pose.size() == episode.scene.cameras.size(), episode,
             "a frame has another number of cameras");
   }
-  for (const FactRecord& fact : episode.facts)
+  for (const FactRecord& fact : episode.labels.facts)
     require(fact.fact.arguments.size() <= 4, episode, "the fact " + to_text(fact.fact) + " has more than 4 arguments");
   for (const ChannelRecord& channel : episode.channels)
     require(channel.values.size() == channel.steps.size() * channel.components.size(), episode,
             "channel " + channel.name + " has another number of values than its steps and components say");
   std::set<int> instances;
-  for (const MaskEntry& mask : episode.masks)
+  for (const MaskEntry& mask : episode.scene.masks)
     require(mask.instance > 0 && mask.semantic > 0 && instances.insert(mask.instance).second, episode,
             "the mask of " + mask.name + " has a number that is not its own");
   if (episode.images)
-    check_images(*episode.images, static_cast<std::int64_t>(episode.frames.size()), episode.cameras.size(),
+    check_images(*episode.images, static_cast<std::int64_t>(episode.frames.size()), episode.scene.cameras.size(),
                  "episode of " + episode.task + ", seed " + std::to_string(episode.seed));
 }
 
@@ -72,7 +73,7 @@ void EpisodeWriter::write(std::int64_t id, const EpisodeRecord& episode, const E
   write_objects(id, episode);
   write_names(id, episode);
   int ordinal = 0;  // of cameras, whose mounts are named by masks and objects
-  for (const Camera& camera : episode.cameras) cameras_.write(id, ordinal++, camera);
+  for (const Camera& camera : episode.scene.cameras) cameras_.write(id, ordinal++, camera);
   frames_.write(id, episode);
   images_.write(id, episode);
   write_streams(id, episode);
@@ -92,22 +93,22 @@ AddedImages EpisodeWriter::add_images(std::int64_t id, const ImageStore& images,
 void EpisodeWriter::write_episode(std::int64_t id, const EpisodeRecord& e, const EngineInfo& engine) {
   const std::string run = shared_.write_engine_run(e, engine);
   std::optional<std::string> scene;  // a start that could not be made has none
-  if (!e.scene_document.empty()) scene = shared_.write_scene(e.scene_document);
+  if (!e.scene.document.empty()) scene = shared_.write_scene(e.scene.document);
   const double duration = e.duration_s();
   const auto simulated = [&](const auto& value) { return e.real ? std::nullopt : std::optional(value); };
   const auto variation = simulated(e.variation), state_hash = simulated(e.state_hash);
-  episode_.run(id, e.key, e.task, e.world, variation, simulated(e.seed), to_string(e.split),
+  episode_.run(id, e.made.key, e.task, e.world, variation, simulated(e.seed), to_string(e.made.split),
                e.outcome == Outcome::success ? "success" : "failure", to_string(e.reason), e.detail, e.beside_goal,
-               e.frames.size(), e.steps, duration, e.physics_hz, e.frame_hz, simulated(e.draws), state_hash,
+               e.frames.size(), e.steps, duration, e.physics_hz, e.frame_hz, simulated(e.made.draws), state_hash,
                e.real ? "real" : "sim", scene, run);
-  timing_.run(id, e.wall_s, e.physics_wall_s);
+  timing_.run(id, e.made.wall_s, e.made.physics_wall_s);
 }
 
 void EpisodeWriter::write_objects(std::int64_t id, const EpisodeRecord& episode) {
   std::map<std::string, int> masks;
-  for (const MaskEntry& mask : episode.masks) masks.emplace(mask.name, mask.instance);
+  for (const MaskEntry& mask : episode.scene.masks) masks.emplace(mask.name, mask.instance);
   int ordinal = 0;
-  for (const Object& o : episode.objects) {
+  for (const Object& o : episode.scene.objects) {
     const auto mask = masks.find(o.name);
     object_.run(id, ordinal, o.name, to_string(o.kind), o.class_name, o.type, o.body, o.part, o.size.x(), o.size.y(),
                 o.size.z(), mask == masks.end() ? 0 : mask->second);
@@ -121,11 +122,11 @@ void EpisodeWriter::write_objects(std::int64_t id, const EpisodeRecord& episode)
 
 void EpisodeWriter::write_names(std::int64_t id, const EpisodeRecord& episode) {
   int ordinal = 0;
-  for (const std::string& name : episode.posed) posed_.run(id, ordinal++, name);
+  for (const std::string& name : episode.scene.posed) posed_.run(id, ordinal++, name);
   ordinal = 0;
-  for (const std::string& name : episode.hands) hand_.run(id, ordinal++, name);
+  for (const std::string& name : episode.scene.hands) hand_.run(id, ordinal++, name);
   ordinal = 0;
-  for (const JointName& j : episode.joints)
+  for (const JointName& j : episode.scene.joints)
     joint_.run(id, ordinal++, j.name, j.part.body, j.part.part, j.kind, j.unit, j.lower, j.upper, j.driven);
 }
 

@@ -35,7 +35,7 @@ std::string parameters_text(const std::vector<SkillParameter>& parameters) {  //
 // The innermost segment of a kind at each frame: children start no earlier than their parents and come later.
 std::vector<std::optional<int>> running(const EpisodeRecord& episode, std::string_view kind) {
   std::vector<std::optional<int>> at(episode.frames.size());
-  for (const SegmentRecord& segment : episode.segments) {
+  for (const SegmentRecord& segment : episode.labels.segments) {
     if (to_string(segment.kind) != kind) continue;
     const auto end = std::min<std::int64_t>(segment.span.end_frame, static_cast<std::int64_t>(at.size()));
     for (std::int64_t frame = std::max<std::int64_t>(segment.span.first_frame, 0); frame < end; ++frame) {
@@ -50,7 +50,7 @@ std::vector<std::optional<int>> running(const EpisodeRecord& episode, std::strin
 struct Running {
   explicit Running(const EpisodeRecord& episode)
       : skill(running(episode, "skill")), motion(running(episode, "motion")), subgoal(running(episode, "subgoal")) {
-    for (const SegmentRecord& segment : episode.segments) names.emplace(segment.ordinal, segment.skill);
+    for (const SegmentRecord& segment : episode.labels.segments) names.emplace(segment.ordinal, segment.skill);
   }
   std::optional<std::string_view> name_of(const std::optional<int>& segment) const {
     return segment ? std::optional(names.at(*segment)) : std::nullopt;
@@ -108,7 +108,7 @@ void FrameWriter::write(std::int64_t id, const EpisodeRecord& episode) {
   // Table by table: each grows at its end.
   for (std::size_t i = 0; i < episode.frames.size(); ++i) {
     const FrameRecord& frame = episode.frames[i];
-    for (std::size_t part = 0; part * kJointsARow < episode.joints.size(); ++part)
+    for (std::size_t part = 0; part * kJointsARow < episode.scene.joints.size(); ++part)
       joint_state_.run(id, i, part, part_of<double>(frame.joint_position, part, kJointsARow, unknown),
                        part_of<double>(frame.joint_velocity, part, kJointsARow, unknown),
                        part_of<double>(frame.joint_effort, part, kJointsARow, unknown));
@@ -128,7 +128,7 @@ void FrameWriter::write(std::int64_t id, const EpisodeRecord& episode) {
 }
 
 void FrameWriter::write_poses(std::int64_t id, const EpisodeRecord& episode) {
-  for (std::size_t object = 0; object < episode.posed.size(); ++object) {
+  for (std::size_t object = 0; object < episode.scene.posed.size(); ++object) {
     const Pose* last = nullptr;
     for (std::size_t i = 0; i < episode.frames.size(); ++i) {
       const Pose& pose = episode.frames[i].object_pose[object];
@@ -137,7 +137,7 @@ void FrameWriter::write_poses(std::int64_t id, const EpisodeRecord& episode) {
       last = &pose;
     }
   }
-  for (std::size_t camera = 0; camera < episode.cameras.size(); ++camera)
+  for (std::size_t camera = 0; camera < episode.scene.cameras.size(); ++camera)
     cameras_.write_poses(id, static_cast<int>(camera), episode.frames.size(), [&](std::size_t frame) {
       const std::vector<Pose>& poses = episode.frames[frame].camera_pose;
       return poses.empty() ? nullptr : &poses[camera];
@@ -150,7 +150,7 @@ void FrameWriter::write_actions(std::int64_t id, const EpisodeRecord& episode) {
     if (frame.action) joints = std::max(joints, frame.action->joint_position.size());
   // Commanded joints are the driven ones that are no fingers, in order; a name is missing where there are fewer.
   std::vector<std::string> names;
-  for (const JointName& joint : episode.joints)
+  for (const JointName& joint : episode.scene.joints)
     if (joint.driven) names.push_back(joint.name);
   names.resize(std::max(joints, names.size()));
   std::size_t ordinal = 0;

@@ -65,10 +65,10 @@ ImageWriter::ImageWriter(const sql::Database& database, CameraWriter& cameras)
 
 void ImageWriter::write_masks(std::int64_t id, const EpisodeRecord& episode) {
   std::map<std::string, std::string> colours;
-  for (const Object& object : episode.objects)
+  for (const Object& object : episode.scene.objects)
     if (const auto colour = object.attributes.find("colour"); colour != object.attributes.end())
       colours.emplace(object.name, colour->second);
-  for (const MaskEntry& m : episode.masks) {
+  for (const MaskEntry& m : episode.scene.masks) {
     const auto colour = colours.find(m.object);
     mask_.run(id, m.instance, m.name, m.object, m.class_name, m.semantic,
               colour == colours.end() ? std::nullopt : std::optional(colour->second));

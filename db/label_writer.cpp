@@ -24,10 +24,11 @@ std::optional<std::int64_t> index(int ordinal) {
 
 // From 1: the tries of the same at its place that were undone go before it.
 int try_number(const EpisodeRecord& episode, const SegmentRecord& segment) {
-  return 1 + static_cast<int>(std::count_if(episode.attempts.begin(), episode.attempts.end(), [&](const auto& a) {
-           return a.before_segment == segment.ordinal && a.segment.kind == segment.kind &&
-                  a.segment.skill == segment.skill;
-         }));
+  return 1 + static_cast<int>(
+                 std::count_if(episode.labels.attempts.begin(), episode.labels.attempts.end(), [&](const auto& a) {
+                   return a.before_segment == segment.ordinal && a.segment.kind == segment.kind &&
+                          a.segment.skill == segment.skill;
+                 }));
 }
 
 }  // namespace
@@ -97,10 +98,10 @@ void LabelWriter::replace(std::int64_t id, const EpisodeRecord& episode) {
 }
 
 void LabelWriter::write_segments(std::int64_t id, const EpisodeRecord& episode) {
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     write_segment({id, false, segment.ordinal, try_number(episode, segment)}, segment);
   int ordinal = 0;
-  for (const AttemptRecord& attempt : episode.attempts)
+  for (const AttemptRecord& attempt : episode.labels.attempts)
     write_segment({id, true, ordinal++, attempt.try_number, attempt.segment.ordinal, attempt.before_segment},
                   attempt.segment);
 }
@@ -160,14 +161,14 @@ void LabelWriter::write_effects(const SegmentPlace& at, const SegmentRecord& seg
 
 void LabelWriter::write_facts(std::int64_t id, const EpisodeRecord& episode) {
   int ordinal = 0;
-  for (const FactRecord& f : episode.facts) {
+  for (const FactRecord& f : episode.labels.facts) {
     const auto arg1 = argument(f.fact.arguments, 0), arg2 = argument(f.fact.arguments, 1),
                arg3 = argument(f.fact.arguments, 2), arg4 = argument(f.fact.arguments, 3);
     fact_.run(id, ordinal++, f.fact.predicate, arg1, arg2, arg3, arg4, to_text(f.fact), f.start_step, f.end_step,
               f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed, f.margin, to_string(f.labelled_by));
   }
   ordinal = 0;
-  for (const FactRecord& f : episode.observed_facts) {
+  for (const FactRecord& f : episode.labels.observed_facts) {
     const auto arg1 = argument(f.fact.arguments, 0), arg2 = argument(f.fact.arguments, 1),
                arg3 = argument(f.fact.arguments, 2), arg4 = argument(f.fact.arguments, 3);
     observed_fact_.run(id, ordinal++, f.fact.predicate, arg1, arg2, arg3, arg4, to_text(f.fact), f.start_step,
@@ -179,19 +180,19 @@ void LabelWriter::write_facts(std::int64_t id, const EpisodeRecord& episode) {
 
 void LabelWriter::write_passages(std::int64_t id, const EpisodeRecord& episode) {
   int ordinal = 0;
-  for (const ViaRecord& v : episode.vias)
+  for (const ViaRecord& v : episode.labels.vias)
     via_.run(id, ordinal++, v.segment, v.name, v.pose, v.passed, v.step, v.speed, v.tool_speed);
   ordinal = 0;
-  for (const ContactRecord& c : episode.contacts)
+  for (const ContactRecord& c : episode.labels.contacts)
     contact_.run(id, ordinal++, c.object_a, c.part_a, c.object_b, c.part_b, c.first_frame, c.end_frame, c.peak_force);
   ordinal = 0;
-  for (const GraspRecord& g : episode.grasps)
+  for (const GraspRecord& g : episode.labels.grasps)
     grasp_.run(id, ordinal++, g.segment, g.object, g.object_from_tip, g.width, g.held);
 }
 
 void LabelWriter::write_sentences(std::int64_t id, const EpisodeRecord& episode) {
   int ordinal = 0;
-  for (const LanguageRecord& l : episode.language) {
+  for (const LanguageRecord& l : episode.labels.language) {
     const std::optional<std::int64_t> segment = index(l.segment);
     const auto grain = l.grain ? std::optional(to_string(*l.grain)) : std::nullopt;
     const auto model = l.model.empty() ? std::nullopt : std::optional(l.model);
@@ -201,17 +202,17 @@ void LabelWriter::write_sentences(std::int64_t id, const EpisodeRecord& episode)
 
 void LabelWriter::write_documents(std::int64_t id, const EpisodeRecord& episode) {
   int ordinal = 0;
-  for (const DocumentRecord& d : episode.documents) {
+  for (const DocumentRecord& d : episode.labels.documents) {
     const std::string hash = content_hash(d.text);
     text_store_.run(hash, d.text);
     document_.run(id, ordinal++, to_string(d.kind), hash);
   }
-  for (const VerdictRecord& v : episode.verdicts)
+  for (const VerdictRecord& v : episode.labels.verdicts)
     verdict_.run(id, v.dialect, v.theirs, v.ours, to_json_list(v.disagreements));
 }
 
 void LabelWriter::write_keyframes(std::int64_t id, const EpisodeRecord& episode) {
-  for (const auto& [method, frames] : episode.keyframes)
+  for (const auto& [method, frames] : episode.labels.keyframes)
     for (const std::int64_t frame : frames) keyframe_.run(id, method, frame);
 }
 

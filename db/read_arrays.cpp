@@ -79,7 +79,7 @@ void ArrayReader::read_frame_rows() {
 }
 
 void ArrayReader::read_joint_rows() {
-  const std::size_t joints = record_.joints.size();
+  const std::size_t joints = record_.scene.joints.size();
   for (auto* table : {&tables_.joint_position, &tables_.joint_velocity, &tables_.joint_effort})
     table->assign(tables_.frames * joints, kUnknown);
   each("frame, part, " + numbered("position", kJointsARow) + ", " + numbered("velocity", kJointsARow) + ", " +
@@ -99,7 +99,7 @@ void ArrayReader::read_joint_rows() {
 
 void ArrayReader::read_hand_rows() {
   constexpr std::size_t kWidth = FrameTables::kHand;
-  const std::size_t hands = record_.hands.size();
+  const std::size_t hands = record_.scene.hands.size();
   tables_.hand.assign(tables_.frames * hands * kWidth, kUnknown);
   each("frame, hand, " + std::string(kPoseColumns) +
            ", linear_x, linear_y, linear_z, angular_x, angular_y, angular_z, opening, touch_1, touch_2",
@@ -150,7 +150,7 @@ void ArrayReader::read_segment_heads() {
       "ordinal, coalesce(parent, -1), kind, skill, case_name, arguments, first_frame, end_frame, outcome, reason, "
       "label",
       "(SELECT * FROM segment WHERE undone = 0)", "ordinal", [&](sql::Statement& row) {
-        SegmentRecord& s = record_.segments.emplace_back();
+        SegmentRecord& s = record_.labels.segments.emplace_back();
         std::string kind, arguments, outcome, reason;
         row.read(s.ordinal, s.parent, kind, s.skill, s.case_name, arguments, s.span.first_frame, s.span.end_frame,
                  outcome, reason, s.label);
@@ -168,7 +168,7 @@ void ArrayReader::read_stored_pictures(EpisodeArrays& arrays) {
     std::string kind;
     row.read(camera, kind, frame);
     if (frame < 0 || frame >= static_cast<std::int64_t>(tables_.frames)) damaged("image");
-    stored[{at(record_.cameras, camera, "image").name, kind}].push_back(frame);
+    stored[{at(record_.scene.cameras, camera, "image").name, kind}].push_back(frame);
   });
   for (auto& [which, frames] : stored) set_stored(arrays, which.first, which.second, std::move(frames));
 }
@@ -186,8 +186,8 @@ EpisodeArrays ArrayReader::read(const ArrayRequest& request) {
   if (needs.frames) read_frame_rows();
   if (needs.joints) read_joint_rows();
   if (needs.hands) read_hand_rows();
-  if (needs.objects) read_pose_rows("posed", "object_state", record_.posed.size(), tables_.object_pose);
-  if (needs.cameras) read_pose_rows("camera", "camera_pose", record_.cameras.size(), tables_.camera_pose);
+  if (needs.objects) read_pose_rows("posed", "object_state", record_.scene.posed.size(), tables_.object_pose);
+  if (needs.cameras) read_pose_rows("camera", "camera_pose", record_.scene.cameras.size(), tables_.camera_pose);
   if (needs.actions) read_action_rows();
   if (needs.agent) read_agent_actions();
   if (needs.segments) read_segment_heads();

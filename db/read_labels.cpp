@@ -48,19 +48,20 @@ void EpisodeReader::read_segments() {
     AttemptRecord tried;
     read_segment(database_, row, tried, undone);
     if (undone) {
-      record_.attempts.push_back(std::move(tried));
+      record_.labels.attempts.push_back(std::move(tried));
     } else {
-      segment_at_[tried.segment.ordinal] = record_.segments.size();
-      record_.segments.push_back(std::move(tried.segment));
+      segment_at_[tried.segment.ordinal] = record_.labels.segments.size();
+      record_.labels.segments.push_back(std::move(tried.segment));
     }
   });
   read_segment_details();
 }
 
 SegmentRecord& EpisodeReader::owner(bool undone, std::int64_t ordinal) {
-  if (undone) return at(record_.attempts, ordinal, "segment").segment;
+  if (undone) return at(record_.labels.attempts, ordinal, "segment").segment;
   const auto found = segment_at_.find(ordinal);
-  return at(record_.segments, found == segment_at_.end() ? -1 : static_cast<std::int64_t>(found->second), "segment");
+  return at(record_.labels.segments, found == segment_at_.end() ? -1 : static_cast<std::int64_t>(found->second),
+            "segment");
 }
 
 void EpisodeReader::read_segment_details() {
@@ -102,7 +103,7 @@ void EpisodeReader::read_segment_details() {
 void EpisodeReader::read_facts() {
   each("fact, start_step, end_step, first_frame, end_frame, open_start, open_end, observed, margin, labelled_by",
        "fact", "ordinal", [&](sql::Statement& row) {
-         FactRecord& f = record_.facts.emplace_back();
+         FactRecord& f = record_.labels.facts.emplace_back();
          std::string fact, labelled_by;
          row.read(fact, f.start_step, f.end_step, f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed,
                   f.margin, labelled_by);
@@ -111,7 +112,7 @@ void EpisodeReader::read_facts() {
        });
   each("fact, start_step, end_step, first_frame, end_frame, open_start, open_end", "observed_fact", "ordinal",
        [&](sql::Statement& row) {
-         FactRecord& f = record_.observed_facts.emplace_back();
+         FactRecord& f = record_.labels.observed_facts.emplace_back();
          std::string fact;
          row.read(fact, f.start_step, f.end_step, f.first_frame, f.end_frame, f.open_start, f.open_end);
          f.fact = fact_from(fact);
@@ -124,16 +125,16 @@ void EpisodeReader::read_passages() {
            ", passed_x, passed_y, passed_z, passed_qx, passed_qy, passed_qz, passed_qw, step, "
            "speed, tool_speed",
        "via", "ordinal", [&](sql::Statement& row) {
-         ViaRecord& v = record_.vias.emplace_back();
+         ViaRecord& v = record_.labels.vias.emplace_back();
          row.read(v.segment, v.name, v.pose, v.passed, v.step, v.speed, v.tool_speed);
        });
   each("object_a, part_a, object_b, part_b, first_frame, end_frame, peak_force", "contact", "ordinal",
        [&](sql::Statement& row) {
-         ContactRecord& c = record_.contacts.emplace_back();
+         ContactRecord& c = record_.labels.contacts.emplace_back();
          row.read(c.object_a, c.part_a, c.object_b, c.part_b, c.first_frame, c.end_frame, c.peak_force);
        });
   each("segment, object, " + pose + ", width, held", "grasp", "ordinal", [&](sql::Statement& row) {
-    GraspRecord& g = record_.grasps.emplace_back();
+    GraspRecord& g = record_.labels.grasps.emplace_back();
     row.read(g.segment, g.object, g.object_from_tip, g.width, g.held);
   });
 }
@@ -141,7 +142,7 @@ void EpisodeReader::read_passages() {
 void EpisodeReader::read_documents() {
   each("kind, (SELECT body FROM text_store t WHERE t.hash = document.text)", "document", "ordinal",
        [&](sql::Statement& row) {
-         DocumentRecord& d = record_.documents.emplace_back();
+         DocumentRecord& d = record_.labels.documents.emplace_back();
          std::string kind;
          row.read(kind, d.text);
          d.kind = known_word(database_, "kind", kind, document_kind_from(kind));
@@ -151,7 +152,7 @@ void EpisodeReader::read_documents() {
 void EpisodeReader::read_language() {
   each("level, text, coalesce(segment, -1), source, coalesce(grain, ''), coalesce(model, '')", "language", "ordinal",
        [&](sql::Statement& row) {
-         LanguageRecord& l = record_.language.emplace_back();
+         LanguageRecord& l = record_.labels.language.emplace_back();
          std::string level, source, grain;
          row.read(level, l.text, l.segment, source, grain, l.model);
          l.level = known_word(database_, "level", level, language_level_from(level));
@@ -160,7 +161,7 @@ void EpisodeReader::read_language() {
        });
   read_documents();
   each("dialect, theirs, ours, disagreements", "verdict", "dialect", [&](sql::Statement& row) {
-    VerdictRecord& v = record_.verdicts.emplace_back();
+    VerdictRecord& v = record_.labels.verdicts.emplace_back();
     std::string disagreements;
     row.read(v.dialect, v.theirs, v.ours, disagreements);
     v.disagreements = from_json_list(database_, disagreements);
@@ -169,7 +170,7 @@ void EpisodeReader::read_language() {
     std::string method;
     std::int64_t frame = 0;
     row.read(method, frame);
-    record_.keyframes[method].push_back(frame);
+    record_.labels.keyframes[method].push_back(frame);
   });
 }
 

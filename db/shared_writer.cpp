@@ -15,7 +15,7 @@ constexpr const char* kOnce = " ON CONFLICT DO NOTHING";
 // Seed and split are columns of episode: with them, hardly two episodes would share an engine run.
 std::string options_text(const EpisodeRecord& episode) {
   std::string text = "{";
-  for (const auto& [name, value] : episode.options) {
+  for (const auto& [name, value] : episode.made.options) {
     if (name == "seed" || name == "split") continue;
     text += (text.size() > 1 ? "," : "") + json_text(name) + ":" + json_text(value);
   }
@@ -46,17 +46,17 @@ std::string SharedWriter::write_engine_run(const EpisodeRecord& episode, const E
   Hasher hasher;
   hasher.text(engine.version).text(engine.numerics).text(options);
   std::set<std::tuple<std::string, std::string, std::string>> names;  // in one order, whatever the record's
-  for (const DefinitionRecord& d : episode.definitions) names.emplace(d.kind, d.name, d.hash);
+  for (const DefinitionRecord& d : episode.made.definitions) names.emplace(d.kind, d.name, d.hash);
   for (const auto& [kind, name, hash] : names) hasher.text(kind).text(name).text(hash);
-  for (const auto& [name, kind] : episode.predicates) hasher.text(name).text(kind);
+  for (const auto& [name, kind] : episode.scene.predicates) hasher.text(name).text(kind);
   const std::string run = hasher.digest();
   engine_run_.run(run, engine.version, engine.numerics, options);
   if (sqlite3_changes(database_.handle()) == 0) return run;
-  for (const DefinitionRecord& d : episode.definitions) {
+  for (const DefinitionRecord& d : episode.made.definitions) {
     definition_.run(d.kind, d.name, d.hash, d.path, d.source);
     engine_run_definition_.run(run, d.kind, d.name, d.hash);
   }
-  for (const auto& [name, kind] : episode.predicates) predicate_.run(run, name, kind);
+  for (const auto& [name, kind] : episode.scene.predicates) predicate_.run(run, name, kind);
   return run;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 // Cameras are stored beside the scene too: what each is mounted on is there.
 void check_mounts(const EpisodeRecord& episode, const Scene& scene, std::int64_t id) {
-  for (const Camera& camera : episode.cameras) {
+  for (const Camera& camera : episode.scene.cameras) {
     if (camera.mount_body.empty()) continue;
     const bool on_robot = camera.mount_body == scene.robot.name;
     const int body = scene.body_index(camera.mount_body);
@@ -28,12 +28,12 @@ void check_mounts(const EpisodeRecord& episode, const Scene& scene, std::int64_t
 
 StoredEpisode stored_of(EpisodeRecord episode, std::int64_t id) {
   StoredEpisode stored{id, std::move(episode), nullptr, {}};
-  if (stored.episode.scene_document.empty()) {
+  if (stored.episode.scene.document.empty()) {
     stored.why_not = "it has no scene: no start was found";
   } else if (stored.episode.frames.empty()) {
     stored.why_not = "it has no frames: no start was found";
   } else {
-    stored.scene = std::make_shared<const Scene>(scene_from_document(stored.episode.scene_document));
+    stored.scene = std::make_shared<const Scene>(scene_from_document(stored.episode.scene.document));
     check_mounts(stored.episode, *stored.scene, id);
   }
   return stored;
@@ -47,7 +47,7 @@ std::shared_ptr<const Scene> with_cameras(const StoredEpisode& stored, const std
                                           const std::vector<std::string>& named) {
   Scene scene = *stored.scene;
   std::vector<Camera> cameras;
-  for (const Camera& camera : stored.episode.cameras) {
+  for (const Camera& camera : stored.episode.scene.cameras) {
     const bool wanted = std::find(named.begin(), named.end(), camera.name) != named.end();
     const bool known = std::any_of(scene.cameras.begin(), scene.cameras.end(),
                                    [&](const Camera& other) { return other.name == camera.name; });

@@ -39,8 +39,8 @@ class Exporter {
         robot_(stored.scene->robot),
         folder_(folder, "recording.json", {"a recording", {}, false}, {}) {
     for (const int part : robot_.arm)
-      for (std::size_t i = 0; i < episode_.joints.size(); ++i)
-        if (episode_.joints[i].part == PartRef{-1, part}) arm_.push_back(i);
+      for (std::size_t i = 0; i < episode_.scene.joints.size(); ++i)
+        if (episode_.scene.joints[i].part == PartRef{-1, part}) arm_.push_back(i);
   }
   std::int64_t run() {
     write_joints();
@@ -159,21 +159,21 @@ class Exporter {
   double taken_at(const ImageEntry& entry) const {
     for (const ImageTimeRecord& one : episode_.image_times)
       if (one.frame == entry.frame && one.kind == entry.kind &&
-          episode_.cameras.at(static_cast<std::size_t>(one.camera)).name == entry.camera)
+          episode_.scene.cameras.at(static_cast<std::size_t>(one.camera)).name == entry.camera)
         return one.time_s;
     return time_of(static_cast<std::size_t>(entry.frame));
   }
   const Camera* camera_of(const std::string& name) const {
-    for (const Camera& camera : episode_.cameras)
+    for (const Camera& camera : episode_.scene.cameras)
       if (camera.name == name) return &camera;
     return nullptr;
   }
 
   // Stand-ins for cameras that nobody calibrated would come back as if somebody had.
   void write_cameras() {
-    if (episode_.options.contains("uncalibrated")) return;
+    if (episode_.made.options.contains("uncalibrated")) return;
     OrderedJson list = OrderedJson::array();
-    for (const Camera& own : episode_.cameras) {
+    for (const Camera& own : episode_.scene.cameras) {
       const bool on_robot = own.mount_body == robot_.name;
       if (!own.mount_body.empty() && !on_robot) continue;
       const auto size = sizes_.find(own.name);
@@ -208,7 +208,7 @@ class Exporter {
 
   void write_labels() {
     OrderedJson segments = OrderedJson::array(), facts = OrderedJson::array(), language = OrderedJson::array();
-    for (const SegmentRecord& s : episode_.segments) {
+    for (const SegmentRecord& s : episode_.labels.segments) {
       if (s.span.start_step >= s.span.end_step || takes_no_frame(s.span.first_frame, s.span.end_frame)) continue;
       segments.push_back({{"kind", to_string(s.kind)},
                           {"name", s.skill},
@@ -220,13 +220,13 @@ class Exporter {
       if (!s.label.empty()) segments.back()["label"] = s.label;
     }
     std::set<std::pair<std::string, std::int64_t>> ends;
-    for (const FactRecord& f : episode_.facts) {
+    for (const FactRecord& f : episode_.labels.facts) {
       if (takes_no_frame(f.first_frame, f.end_frame) || f.fact.arguments.size() > 4) continue;
       OrderedJson words = OrderedJson::array({f.fact.predicate});
       for (const std::string& word : f.fact.arguments) words.push_back(word);
       facts.push_back({{"fact", std::move(words)}, {"first_frame", f.first_frame}, {"end_frame", f.end_frame}});
     }
-    for (const LanguageRecord& l : episode_.language)
+    for (const LanguageRecord& l : episode_.labels.language)
       if (l.segment < 0) language.push_back({{"level", to_string(l.level)}, {"text", l.text}});
     if (segments.empty() && facts.empty() && language.empty()) return;
     has_labels_ = true;
@@ -235,7 +235,8 @@ class Exporter {
                         {"segments", std::move(segments)},
                         {"facts", std::move(facts)},
                         {"language", std::move(language)}};
-    if (episode_.real && !episode_.segments.empty() && episode_.segments[0].labelled_by == Labeller::person) {
+    if (episode_.real && !episode_.labels.segments.empty() &&
+        episode_.labels.segments[0].labelled_by == Labeller::person) {
       root["labelled_by"] = "person";
       root.erase("model");
     }
@@ -257,10 +258,10 @@ class Exporter {
     root["streams"] = streams_;
     if (has_cameras_) root["cameras"] = "cameras.json";
     if (has_labels_) root["labels"] = "labels.json";
-    const auto recorded = episode_.options.find("recording");
-    root["source"] = episode_.real && recorded != episode_.options.end()
+    const auto recorded = episode_.made.options.find("recording");
+    root["source"] = episode_.real && recorded != episode_.made.options.end()
                          ? recorded->second
-                         : "exported from episode " + std::to_string(stored_.id) + ", key " + episode_.key;
+                         : "exported from episode " + std::to_string(stored_.id) + ", key " + episode_.made.key;
     write("recording.json", root.dump(1) + "\n");
   }
 

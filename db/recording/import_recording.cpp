@@ -55,8 +55,8 @@ class Importer {
     });
     images_->set_makers(options_.workers);
     if (images_->count() > 0) record_.images = images_;
-    record_.key = kNoKey;
-    record_.keyframes["stopped"] = stopped_keyframes(record_);
+    record_.made.key = kNoKey;
+    record_.labels.keyframes["stopped"] = stopped_keyframes(record_);
     if (!recording_.labels.empty()) {
       const std::filesystem::path file = recording_.path_of(recording_.labels, recording_.shown);
       put_labels(read_labels(file, recording_.shown_path(recording_.labels), record_, {&recording_, own_times_}),
@@ -186,10 +186,10 @@ class Importer {
     record_.reason = recording_.reason;
     record_.detail = recording_.detail;
     record_.steps = static_cast<std::int64_t>(times_.count - 1) * ticks;
-    if (!recording_.source.empty()) record_.options["recording"] = recording_.source;
+    if (!recording_.source.empty()) record_.made.options["recording"] = recording_.source;
     const std::string uncalibrated = joined({scene_.uncalibrated.begin(), scene_.uncalibrated.end()}, ",");
-    if (!uncalibrated.empty()) record_.options["uncalibrated"] = uncalibrated;
-    record_.definitions = scene_.stage.definitions;
+    if (!uncalibrated.empty()) record_.made.options["uncalibrated"] = uncalibrated;
+    record_.made.definitions = scene_.stage.definitions;
   }
 
   StreamRecord& describe_stream(const RecordedStream& stream, const std::vector<double>& time, const char* rule) {
@@ -256,9 +256,9 @@ class Importer {
     if (!pictures.note.empty()) notes_.push_back(pictures.note);
     require_overlap(stream, pictures.time);
     const std::vector<std::int64_t> chosen = nearest(pictures.time, times_);
-    const auto camera = std::find_if(record_.cameras.begin(), record_.cameras.end(),
+    const auto camera = std::find_if(record_.scene.cameras.begin(), record_.scene.cameras.end(),
                                      [&](const Camera& one) { return one.name == stream.name; });
-    const int index = static_cast<int>(camera - record_.cameras.begin());
+    const int index = static_cast<int>(camera - record_.scene.cameras.begin());
     StreamRecord& described = describe_stream(stream, pictures.time, "nearest");
     for (std::size_t frame = 0; frame < chosen.size(); ++frame) {
       if (chosen[frame] < 0) {
@@ -299,7 +299,7 @@ EpisodeRecord record_of(const std::filesystem::path& folder, const RecordingStag
   Importer importer(folder, stager, options);
   EpisodeRecord record = importer.import();
   if (record.images) record.images->read_all([](const ImageRecord&, const Bytes&) {});
-  record.key = importer.key();
+  record.made.key = importer.key();
   return record;
 }
 
@@ -317,13 +317,13 @@ StoredRecording store_recording(const std::filesystem::path& folder, const Recor
   std::optional<std::int64_t> id;
   if (!episode.images || std::any_of(there.begin(), there.end(), alike)) {
     if (episode.images) episode.images->read_all([](const ImageRecord&, const Bytes&) {});
-    episode.key = importer.key();
+    episode.made.key = importer.key();
     id = catalogue.add_if_new(episode, engine);
   } else {
-    id = catalogue.add_if_new(episode, engine, [&] { return episode.key = importer.key(); });
+    id = catalogue.add_if_new(episode, engine, [&] { return episode.made.key = importer.key(); });
   }
   stored.added = id.has_value();
-  stored.id = id ? *id : catalogue.find(episode.key).value_or(0);
+  stored.id = id ? *id : catalogue.find(episode.made.key).value_or(0);
   return stored;
 }
 

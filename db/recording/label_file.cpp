@@ -113,7 +113,8 @@ class LabelReader {
     for (const std::string& word : row.arguments) check_word(word, row.place);
     segment.skill = row.name;
     segment.arguments = row.arguments;
-    segment.robot = episode_.hands.empty() ? "" : episode_.hands[0].substr(0, episode_.hands[0].find('.'));
+    segment.robot =
+        episode_.scene.hands.empty() ? "" : episode_.scene.hands[0].substr(0, episode_.scene.hands[0].find('.'));
     segment.span = span_of(row, false);
     if (row.outcome != "success" && row.outcome != "failure")
       throw Error(row.place, "there is no outcome '" + row.outcome + "'", "write success or failure");
@@ -278,15 +279,15 @@ Labels read_labels(const std::filesystem::path& file, const std::string& shown, 
 void put_labels(Labels labels, EpisodeRecord& episode) {
   if (!labels.segments.empty()) {
     // Sentences of segments that are gone would name others.
-    std::erase_if(episode.language, [](const LanguageRecord& sentence) { return sentence.segment >= 0; });
-    episode.segments = std::move(labels.segments);
+    std::erase_if(episode.labels.language, [](const LanguageRecord& sentence) { return sentence.segment >= 0; });
+    episode.labels.segments = std::move(labels.segments);
   }
-  if (!labels.facts.empty()) episode.facts = std::move(labels.facts);
+  if (!labels.facts.empty()) episode.labels.facts = std::move(labels.facts);
   std::set<LanguageLevel> levels;
   for (const LanguageRecord& sentence : labels.language) levels.insert(sentence.level);
   const auto replaced = [&](const LanguageRecord& sentence) { return levels.contains(sentence.level); };
-  std::erase_if(episode.language, replaced);
-  episode.language.insert(episode.language.end(), labels.language.begin(), labels.language.end());
+  std::erase_if(episode.labels.language, replaced);
+  episode.labels.language.insert(episode.labels.language.end(), labels.language.begin(), labels.language.end());
 }
 
 }  // namespace stampede

@@ -28,8 +28,8 @@ class Overlayer {
       if (mask.name.starts_with(scene_.robot.name + ".")) robot_.push_back(mask.instance);
     for (const ImageTimeRecord& one : stored_.episode.image_times)
       if (one.kind == "rgb")
-        taken_[{one.frame, stored_.episode.cameras.at(static_cast<std::size_t>(one.camera)).name}] = one.time_s;
-    for (const JointName& joint : stored_.episode.joints) {
+        taken_[{one.frame, stored_.episode.scene.cameras.at(static_cast<std::size_t>(one.camera)).name}] = one.time_s;
+    for (const JointName& joint : stored_.episode.scene.joints) {
       const auto& arm = scene_.robot.arm;
       arm_.push_back(joint.part.body < 0 && std::find(arm.begin(), arm.end(), joint.part.part) != arm.end());
     }
@@ -58,16 +58,17 @@ class Overlayer {
 
  private:
   std::vector<std::string> uncalibrated() const {
-    const auto found = stored_.episode.options.find("uncalibrated");
-    if (found == stored_.episode.options.end()) return {};
+    const auto found = stored_.episode.made.options.find("uncalibrated");
+    if (found == stored_.episode.made.options.end()) return {};
     std::vector<std::string> names = split(found->second, ',');
     // Whoever gives another calibration has measured it.
     std::erase_if(names, [&](const std::string& name) {
       const Camera& drawn = camera_named(name);
-      return std::any_of(stored_.episode.cameras.begin(), stored_.episode.cameras.end(), [&](const Camera& own) {
-        return own.name == name &&
-               (!own.mount_from_camera.isApprox(drawn.mount_from_camera) || own.focal_x != drawn.focal_x);
-      });
+      return std::any_of(
+          stored_.episode.scene.cameras.begin(), stored_.episode.scene.cameras.end(), [&](const Camera& own) {
+            return own.name == name &&
+                   (!own.mount_from_camera.isApprox(drawn.mount_from_camera) || own.focal_x != drawn.focal_x);
+          });
     });
     return names;
   }
@@ -94,8 +95,8 @@ class Overlayer {
     const std::size_t other = share < 0 && here > 0                   ? here - 1
                               : share > 0 && here + 1 < frames.size() ? here + 1
                                                                       : here;
-    for (std::size_t i = 0; i < episode.joints.size(); ++i) {
-      const PartRef part = episode.joints[i].part;
+    for (std::size_t i = 0; i < episode.scene.joints.size(); ++i) {
+      const PartRef part = episode.scene.joints[i].part;
       if (part.body >= 0) continue;
       const double now = frames[here].joint_position[i], then = frames[other].joint_position[i];
       if (arm_[i] && (std::isnan(now) || std::isnan(then))) return std::nullopt;

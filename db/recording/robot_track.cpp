@@ -60,8 +60,8 @@ class FrameFiller {
         record_(record),
         count_(robot_.arm.size()) {
     for (JointName& joint : joints_of(scene))
-      if (joint.part.body < 0) record.joints.push_back(std::move(joint));
-    record.hands = {robot_.name + "." + robot_.hand};
+      if (joint.part.body < 0) record.scene.joints.push_back(std::move(joint));
+    record.scene.hands = {robot_.name + "." + robot_.hand};
     resample(tracks);
   }
   void fill() {
@@ -93,8 +93,8 @@ class FrameFiller {
     bool recorded = true;
     for (std::size_t i = 0; i < count_; ++i) recorded = recorded && tracks.joints->there[3 * i + 1];
     if (!recorded) at_.velocity = differences(positions, count_, times_.hz);
-    record_.options["velocities"] = recorded ? "recorded" : "differences";
-    record_.options["actions"] = tracks.command != nullptr ? "commanded" : "measured";
+    record_.made.options["velocities"] = recorded ? "recorded" : "differences";
+    record_.made.options["actions"] = tracks.command != nullptr ? "commanded" : "measured";
   }
 
   // The arm's joints at a frame; nothing where one is unknown.
@@ -113,7 +113,7 @@ class FrameFiller {
     frame.step = static_cast<std::int64_t>(i) * (record_.physics_hz / record_.frame_hz);
     frame.reward = kNotKnown;
     const double opening = value_at(at_.gripper, at_.gripper_width, i, 0);
-    for (const JointName& joint : record_.joints) {
+    for (const JointName& joint : record_.scene.joints) {
       const auto place = std::find(robot_.arm.begin(), robot_.arm.end(), joint.part.part) - robot_.arm.begin();
       const bool finger =
           std::find(robot_.fingers.begin(), robot_.fingers.end(), joint.part.part) != robot_.fingers.end();

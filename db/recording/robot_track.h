@@ -25,10 +25,10 @@ struct RobotTracks {
   const Track* command = nullptr;
 };
 
-// Fills record.joints, hands and frames: positions, rates and efforts at the frames' times; the tool's pose and twist
-// by the URDF's kinematics; poses of the cameras; actions. Without recorded velocities they are differences of
-// positions, without a command stream an action is the state of the next frame; record.options say which (`velocities`,
-// `actions`).
+// Fills record.scene.joints, hands and frames: positions, rates and efforts at the frames' times; the tool's pose and
+// twist by the URDF's kinematics; poses of the cameras; actions. Without recorded velocities they are differences of
+// positions, without a command stream an action is the state of the next frame; record.made.options say which
+// (`velocities`, `actions`).
 void fill_frames(const Scene& scene, const RobotTracks& tracks, const FrameTimes& times, EpisodeRecord& record);
 
 }  // namespace stampede

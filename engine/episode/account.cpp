@@ -13,14 +13,14 @@ namespace {
 // make by where they put things, also what the planner is asked.
 void write_problem(const Task& task, const Domain& domain, const Rollout& rollout, EpisodeRecord& record) {
   const Domain own = named_by_content(domain);
-  record.documents.push_back({DocumentKind::pddl_domain, to_pddl(own)});
-  record.documents.push_back(
+  record.labels.documents.push_back({DocumentKind::pddl_domain, to_pddl(own)});
+  record.labels.documents.push_back(
       {DocumentKind::pddl_problem, to_pddl(world_problem(task, rollout.facts()), own, record.beside_goal)});
   if (task.stages.empty() && relations_asked(task, rollout.facts()).empty()) return;
   const PlanningTask planning = planning_task(task, domain, rollout.facts(), rollout.stage());
   const Domain ordered = named_by_content(planning.domain);
-  record.documents.push_back({DocumentKind::ordered_domain, to_pddl(ordered)});
-  record.documents.push_back({DocumentKind::ordered_problem, to_pddl(planning.problem, ordered)});
+  record.labels.documents.push_back({DocumentKind::ordered_domain, to_pddl(ordered)});
+  record.labels.documents.push_back({DocumentKind::ordered_problem, to_pddl(planning.problem, ordered)});
 }
 
 ObservationChoice observed(const Task& task, const RunOptions& options) {
@@ -47,17 +47,17 @@ EpisodeRecord described(const Task& task, const Symbols& symbols, const RunOptio
   record.variation = task.variation;
   record.axes = task.axes;
   record.seed = options.seed;
-  record.split = options.split;
-  record.options = options.as_text();
-  record.options.merge(observed(task, options).as_text());
+  record.made.split = options.split;
+  record.made.options = options.as_text();
+  record.made.options.merge(observed(task, options).as_text());
   record.beside_goal = beside_goal(task);
   for (const std::string& sentence : task.instructions)
-    record.language.push_back({.level = LanguageLevel::task, .text = sentence});
+    record.labels.language.push_back({.level = LanguageLevel::task, .text = sentence});
   for (const Predicate& predicate : symbols.domain().predicates)
     if (predicate.kind != PredicateKind::start)
-      record.predicates[predicate.name] = predicate.kind == PredicateKind::basic     ? "basic"
-                                          : predicate.kind == PredicateKind::derived ? "derived"
-                                                                                     : "fixed";
+      record.scene.predicates[predicate.name] = predicate.kind == PredicateKind::basic     ? "basic"
+                                                : predicate.kind == PredicateKind::derived ? "derived"
+                                                                                           : "fixed";
   return record;
 }
 
@@ -66,7 +66,7 @@ void describe_beginning(const Rollout& rollout, EpisodeRecord& record) {
   const Scene& scene = rollout.view().scene();
   const Facts said = mentionable(facts.facts(), facts.observed(), rollout.domain(), scene);
   for (const std::string& sentence : describe_world(said, rollout.domain(), scene))
-    record.language.push_back({.level = LanguageLevel::world, .text = sentence});
+    record.labels.language.push_back({.level = LanguageLevel::world, .text = sentence});
   write_problem(rollout.task(), rollout.domain(), rollout, record);
 }
 
@@ -83,19 +83,21 @@ void close_record(Rollout& rollout, const SkillResult& verdict, const std::strin
   record.detail = verdict.reason == Reason::sensor_error ? rollout.sensors().failure() : verdict.detail;
   record.steps = rollout.step();
   record.commands = rollout.world().log();
-  record.facts = rollout.facts().intervals(record.steps, rollout.steps_per_frame());
-  record.observed_facts = rollout.facts().observed_intervals(record.steps, rollout.steps_per_frame());
+  record.labels.facts = rollout.facts().intervals(record.steps, rollout.steps_per_frame());
+  record.labels.observed_facts = rollout.facts().observed_intervals(record.steps, rollout.steps_per_frame());
   record.channels = rollout.sensors().channels();
   record.state_hash = rollout.world().state_hash();
-  record.physics_wall_s = rollout.physics_wall_s();
+  record.made.physics_wall_s = rollout.physics_wall_s();
   recorder.finish(record, record.steps);
-  for (const SegmentRecord& segment : record.segments)
+  for (const SegmentRecord& segment : record.labels.segments)
     if (segment.kind == SegmentKind::skill && !segment.label.empty())
-      record.language.push_back({.level = LanguageLevel::skill, .text = segment.label, .segment = segment.ordinal});
+      record.labels.language.push_back(
+          {.level = LanguageLevel::skill, .text = segment.label, .segment = segment.ordinal});
     else if (segment.kind == SegmentKind::subgoal && segment.label != segment.skill)
-      record.language.push_back({.level = LanguageLevel::subgoal, .text = segment.label, .segment = segment.ordinal});
-  record.keyframes["stopped"] = stopped_keyframes(record);
-  for (DocumentRecord& document : record.documents)
+      record.labels.language.push_back(
+          {.level = LanguageLevel::subgoal, .text = segment.label, .segment = segment.ordinal});
+  record.labels.keyframes["stopped"] = stopped_keyframes(record);
+  for (DocumentRecord& document : record.labels.documents)
     if (document.kind == DocumentKind::plan) document.text = plan;
 }
 

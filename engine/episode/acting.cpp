@@ -300,7 +300,7 @@ void Acting::finish(const SkillResult& verdict) {
   last = observer.observe();
   track.close(verdict);
   track.place_attempts();
-  record.options["behaviour"] = "agent";
+  record.made.options["behaviour"] = "agent";
   close_record(rollout, verdict, to_pddl(done.copy()), record);
   ended = true;
 }

@@ -56,7 +56,7 @@ PlanningTask CurrentPlan::problem(const std::vector<Obstruction>& standing, cons
 }
 
 PlanOutcome CurrentPlan::ask(const PlanningTask& planning) const {
-  if (options_.planner) return options_.planner(planning.domain, planning.problem);
+  if (options_.planner) return options_.planner.plan(planning.domain, planning.problem);
   return solve_drawn(planning.domain, planning.problem, forbidden, key_of("plan"));
 }
 

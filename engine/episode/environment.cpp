@@ -143,7 +143,7 @@ void Environment::Impl::begin(const ResetRequest& asked) {
     channels->emplace_back(kMargins);
   }
   EpisodeRecord record = described(start.task, *opened.symbols, options);
-  record.draws = start.draws;
+  record.made.draws = start.draws;
   if (start.reason != Reason::none) throw NoStart(start.task.name, start.reason, start.detail);
   if (settings.record) describe_scene(*start.scene, record);
   const SensorNoise further = further_noise(options.perturb);
@@ -160,7 +160,7 @@ void Environment::Impl::begin(const ResetRequest& asked) {
   request = asked;
   if (settings.record) {
     describe_beginning(now->rollout, now->record);
-    now->record.documents.push_back({DocumentKind::plan, {}});
+    now->record.labels.documents.push_back({DocumentKind::plan, {}});
   }
   if (settings.reward == RewardKind::dense)
     now->dense.emplace(now->rollout, *now->opened.symbols, draw_key("plan", now->record));
@@ -185,7 +185,7 @@ void Environment::Impl::go_to_frame(const EpisodeRecord& episode, std::int64_t f
   const Scene& scene = own.rollout.view().scene();
   if (scene.physics_hz != episode.physics_hz || scene.frame_hz != episode.frame_hz)
     throw Error(where, "it was recorded at other rates", "leave physics_hz and frame_hz as they are");
-  if (scene_to_document(scene) != episode.scene_document)
+  if (scene_to_document(scene) != episode.scene.document)
     throw Error(where, "the scripts that are here now make another scene of it", "use those that it was recorded with");
   std::size_t next = 0;
   while (own.rollout.step() < frame * own.rollout.steps_per_frame()) {
@@ -259,8 +259,8 @@ EnvironmentObservation Environment::reset(const ResetRequest& request) {
   same.variation = record->variation;
   same.seed = record->seed;
   const auto option = [&](const char* name) {
-    const auto found = record->options.find(name);
-    return found == record->options.end() ? std::string() : found->second;
+    const auto found = record->made.options.find(name);
+    return found == record->made.options.end() ? std::string() : found->second;
   };
   same.where = option("where");
   same.goal = option("goal");
@@ -299,7 +299,7 @@ double Environment::horizon_s() const {
 
 std::vector<std::string> Environment::instructions() const {
   std::vector<std::string> sentences;
-  for (const LanguageRecord& one : impl_->acting().record.language)
+  for (const LanguageRecord& one : impl_->acting().record.labels.language)
     if (one.level == LanguageLevel::task) sentences.push_back(one.text);
   return sentences;
 }
@@ -377,7 +377,7 @@ Episode Environment::episode() {
   if (!own.success && own.over != Reason::none) verdict = {own.over, std::string(describe(own.over)), true};
   if (!own.success && own.over == Reason::none)
     verdict = {Reason::goal_false, "the agent ended the episode before the goal had held long enough"};
-  own.record.options["reward"] = kRewardKinds[static_cast<std::size_t>(impl_->settings.reward)];
+  own.record.made.options["reward"] = kRewardKinds[static_cast<std::size_t>(impl_->settings.reward)];
   own.finish(verdict);
   return impl_->source->close(std::move(own.record), own.opened.owner);
 }

@@ -20,11 +20,11 @@ std::string difference(const EpisodeRecord& episode, std::vector<FrameRecord> fr
   EpisodeRecord again;
   again.physics_hz = episode.physics_hz;
   again.frame_hz = episode.frame_hz;
-  again.joints = episode.joints;
-  again.posed = episode.posed;
-  again.hands = episode.hands;
-  again.cameras = episode.cameras;  // the scene's come first, then those of pictures that were made later
-  again.cameras.resize(frames.empty() ? 0 : frames.front().camera_pose.size());
+  again.scene.joints = episode.scene.joints;
+  again.scene.posed = episode.scene.posed;
+  again.scene.hands = episode.scene.hands;
+  again.scene.cameras = episode.scene.cameras;  // the scene's come first, then those of pictures that were made later
+  again.scene.cameras.resize(frames.empty() ? 0 : frames.front().camera_pose.size());
   again.channels = channels;
   again.frames = std::move(frames);
   EpisodeArrays now = episode_arrays(again);
@@ -38,9 +38,9 @@ std::string difference(const EpisodeRecord& episode, std::vector<FrameRecord> fr
 
 std::string replay_episode(const EpisodeRecord& episode) {
   if (episode.frames.empty()) return {};
-  World world(std::make_shared<const Scene>(scene_from_document(episode.scene_document)));
+  World world(std::make_shared<const Scene>(scene_from_document(episode.scene.document)));
   WorldView view(world);
-  const FrameReader reader(view, episode.joints);  // an older catalogue may lack some
+  const FrameReader reader(view, episode.scene.joints);  // an older catalogue may lack some
   SensorReader sensors = sensors_of(world.scene(), episode, nullptr);
   const std::int64_t per_frame = episode.physics_hz / episode.frame_hz;
   std::vector<FrameRecord> frames;
@@ -66,7 +66,8 @@ std::string replay_episode(const EpisodeRecord& episode) {
 std::vector<std::string> not_replayed(const EpisodeRecord& episode) {
   std::vector<std::string> names;
   for (const ChannelRecord& channel : episode.channels)
-    if (channel.name == kMargins || episode.options.contains("sensor_" + channel.name)) names.push_back(channel.name);
+    if (channel.name == kMargins || episode.made.options.contains("sensor_" + channel.name))
+      names.push_back(channel.name);
   return names;
 }
 

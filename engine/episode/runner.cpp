@@ -16,7 +16,7 @@ namespace {
 SkillResult behave(Drive& drive, const Rollout& rollout, EpisodeRecord& record) {
   const bool planned = drive.options.behaviour == Behaviour::plan;
   const SkillResult made = planned ? drive.plan.make() : SkillResult{};
-  record.documents.push_back({DocumentKind::plan, to_pddl(drive.plan.steps)});
+  record.labels.documents.push_back({DocumentKind::plan, to_pddl(drive.plan.steps)});
   if (!made.ok()) return made;
   if (!planned) return act_at_random(drive, rollout, draw_key("behaviour", record));
   switch (drive.options.on_failure) {
@@ -35,7 +35,7 @@ void execute(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const Run
   describe_beginning(rollout, record);
   SkillTrack track(rollout, symbols, skills, options, draw_key("skill", record));
   CurrentPlan plan(rollout, options);
-  Drive drive{track, plan, options, record.documents};
+  Drive drive{track, plan, options, record.labels.documents};
   const SkillResult verdict = behave(drive, rollout, record);
   track.close(verdict);
   track.place_attempts();
@@ -57,8 +57,8 @@ void check_all_settings(const std::map<std::string, CallSettings>& all, const Sk
 // From what was recorded, as anybody could later.
 void paint(const RunOptions& options, EpisodeRecord& record) {
   if (chosen(observation_of(record)).images == WhichFrames::none) return;
-  const std::unique_ptr<Renderer> own = options.renderer == nullptr ? make_renderer() : nullptr;
-  paint_episode(own ? *own : *options.renderer, record, options.encoders);
+  const std::unique_ptr<Renderer> own = options.services.renderer == nullptr ? make_renderer() : nullptr;
+  paint_episode(own ? *own : *options.services.renderer, record, options.services.encoders);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ EpisodeRecord run_episode(const TaskDraw& task, Symbols& symbols, SkillLibrary& 
   check_all_settings(options.set, skills);
   const PreparedStart start = prepare_start(altered(task, symbols, options), symbols, options, stop);
   EpisodeRecord record = described(start.task, symbols, options);
-  record.draws = start.draws;
+  record.made.draws = start.draws;
   record.reason = start.reason;
   record.detail = start.detail;
   if (start.scene) {
@@ -80,7 +80,7 @@ EpisodeRecord run_episode(const TaskDraw& task, Symbols& symbols, SkillLibrary& 
   Rollout rollout(symbols, start, sensors_of(*start.scene, record, options.sensors), stop);
   execute(rollout, symbols, skills, options, record);
   paint(options, record);
-  record.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  record.made.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return record;
 }
 

@@ -78,7 +78,7 @@ void ArrayMaker::asked_ids() {
 // A column a space that was used: two that act at once are never of one space.
 void ArrayMaker::asked_values() {
   std::vector<std::string> joints;
-  for (const std::size_t place : arm_) joints.push_back(episode_.joints[place].name);
+  for (const std::size_t place : arm_) joints.push_back(episode_.scene.joints[place].name);
   const std::vector<ActionSpace> named = named_spaces(joints);
   for (const auto& [name, space] : used_spaces(arrays_.agent_actions)) {
     if (!wanted("agent_action/" + name)) continue;

@@ -26,11 +26,11 @@ std::pair<std::size_t, std::size_t> frames_of(const Record& record, std::size_t 
 void ArrayMaker::facts() {
   std::set<Fact> atoms;
   std::set<std::string> hiding;  // predicates that were not known all the time: as in abstract_state()
-  for (const FactRecord& one : episode_.facts) {
+  for (const FactRecord& one : episode_.labels.facts) {
     atoms.insert(one.fact);
     if (!one.observed) hiding.insert(one.fact.predicate);
   }
-  for (const FactRecord& one : episode_.observed_facts) {
+  for (const FactRecord& one : episode_.labels.observed_facts) {
     atoms.insert(one.fact);
     hiding.insert(one.fact.predicate);
   }
@@ -47,11 +47,11 @@ void ArrayMaker::facts() {
     const std::size_t place = places.at(one.fact);
     for (std::size_t frame = begin; frame < end; ++frame) rows[frame * width + place] = 1;
   };
-  for (const FactRecord& one : episode_.facts) {
+  for (const FactRecord& one : episode_.labels.facts) {
     mark(rows_, one);
     if (!hiding.contains(one.fact.predicate)) mark(known, one);
   }
-  for (const FactRecord& one : episode_.observed_facts) mark(known, one);
+  for (const FactRecord& one : episode_.labels.observed_facts) mark(known, one);
   std::vector<std::string> labels;
   for (const Fact& atom : atoms) labels.push_back(to_text(atom));
   const std::vector<std::int64_t> shape = {arrays_.frames, static_cast<std::int64_t>(width)};
@@ -101,7 +101,7 @@ void ArrayMaker::goal() {
 
 // The innermost of each kind: children start no earlier than their parents and have greater ids.
 void ArrayMaker::segments() {
-  for (const SegmentRecord& one : episode_.segments) {
+  for (const SegmentRecord& one : episode_.labels.segments) {
     ArraySegment& segment = arrays_.segments.emplace_back();
     segment.id = one.ordinal, segment.parent = one.parent, segment.kind = to_string(one.kind);
     segment.name = one.skill, segment.case_name = one.case_name, segment.arguments = one.arguments;

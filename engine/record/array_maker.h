@@ -54,7 +54,7 @@ class ArrayMaker {
   const ArrayRequest& request_;
   std::vector<bool> used_;                                 // of the request's columns
   std::vector<std::string> known_;                         // all names, for messages
-  std::vector<std::size_t> arm_, fingers_, other_joints_;  // places in EpisodeRecord::joints
+  std::vector<std::size_t> arm_, fingers_, other_joints_;  // places in EpisodeScene::joints
   std::vector<std::uint8_t> rows_;                         // frames x atoms: which hold
   EpisodeArrays arrays_;
 };

@@ -63,13 +63,13 @@ ArrayMaker::ArrayMaker(const EpisodeRecord& episode, const FrameTables& tables, 
   arrays_.frames = count_of(tables.frames);
   arrays_.frame_hz = episode.frame_hz;
   std::vector<std::size_t> driven;
-  for (std::size_t i = 0; i < episode.joints.size(); ++i) {
-    const JointName& joint = episode.joints[i];
+  for (std::size_t i = 0; i < episode.scene.joints.size(); ++i) {
+    const JointName& joint = episode.scene.joints[i];
     (joint.driven && joint.part.body < 0 ? driven : other_joints_).push_back(i);
   }
   // Commanded joints are the arm's, or where nothing was commanded those that turn; fingers follow them on the chain.
   const auto turning = static_cast<std::size_t>(
-      std::ranges::count_if(driven, [&](std::size_t joint) { return episode.joints[joint].kind == "hinge"; }));
+      std::ranges::count_if(driven, [&](std::size_t joint) { return episode.scene.joints[joint].kind == "hinge"; }));
   const std::size_t arm = std::min(tables.commanded > 0 ? tables.commanded : turning, driven.size());
   arm_.assign(driven.begin(), driven.begin() + static_cast<std::ptrdiff_t>(arm));
   fingers_.assign(driven.begin() + static_cast<std::ptrdiff_t>(arm), driven.end());
@@ -119,12 +119,13 @@ void ArrayMaker::joints_of(const std::string& prefix, const std::vector<std::siz
   std::string unit = "rad", rate = "rad/s", force = "N m";
   bool mixed = false;
   for (const std::size_t place : places) {
-    labels.push_back(episode_.joints[place].name);
-    mixed = mixed || episode_.joints[place].unit != episode_.joints[places.front()].unit;
+    labels.push_back(episode_.scene.joints[place].name);
+    mixed = mixed || episode_.scene.joints[place].unit != episode_.scene.joints[places.front()].unit;
   }
   if (mixed) unit = "rad or m", rate = "rad/s or m/s", force = "N m or N";
-  if (!mixed && !places.empty() && episode_.joints[places.front()].unit == "m") unit = "m", rate = "m/s", force = "N";
-  const std::size_t width = episode_.joints.size();
+  if (!mixed && !places.empty() && episode_.scene.joints[places.front()].unit == "m")
+    unit = "m", rate = "m/s", force = "N";
+  const std::size_t width = episode_.scene.joints.size();
   const auto column = [&](const std::string& name, const std::string& own_unit, const std::vector<double>& table) {
     if (wanted(name)) add_rows({name, own_unit, "", labels}, places.size(), picked(table, width, places));
   };
@@ -134,9 +135,10 @@ void ArrayMaker::joints_of(const std::string& prefix, const std::vector<std::siz
 }
 
 void ArrayMaker::hands() {
-  const std::size_t width = episode_.hands.size() * FrameTables::kHand;
-  for (std::size_t i = 0; i < episode_.hands.size(); ++i) {
-    const std::string prefix = i == 0 ? "gripper_" : episode_.hands[i] + "/gripper_";  // the first has RLBench's names
+  const std::size_t width = episode_.scene.hands.size() * FrameTables::kHand;
+  for (std::size_t i = 0; i < episode_.scene.hands.size(); ++i) {
+    const std::string prefix =
+        i == 0 ? "gripper_" : episode_.scene.hands[i] + "/gripper_";  // the first has RLBench's names
     const std::size_t from = i * FrameTables::kHand;
     const auto wants = [&](const char* name) { return wanted(prefix + name); };
     if (wants("pose")) add_rows({prefix + "pose", "m, 1", "world", kPoseLabels}, 7, cut(tables_.hand, width, from, 7));
@@ -148,17 +150,17 @@ void ArrayMaker::hands() {
     if (wants("touch_forces")) add_rows({prefix + "touch_forces", "N"}, 2, cut(tables_.hand, width, from + 14, 2));
   }
   if (fingers_.empty() || !wanted("gripper_open")) return;
-  const JointName& finger = episode_.joints[fingers_.front()];
-  std::vector<double> open = picked(tables_.joint_position, episode_.joints.size(), {fingers_.front()});
+  const JointName& finger = episode_.scene.joints[fingers_.front()];
+  std::vector<double> open = picked(tables_.joint_position, episode_.scene.joints.size(), {fingers_.front()});
   for (double& value : open) value = (value - finger.lower) / (finger.upper - finger.lower) > kWideOpen ? 1 : 0;
   add({"gripper_open", ""}, {arrays_.frames}, std::move(open));
 }
 
 void ArrayMaker::objects() {
-  const std::size_t width = episode_.posed.size() * FrameTables::kPose;
-  const std::size_t hand_width = episode_.hands.size() * FrameTables::kHand;
-  for (std::size_t i = 0; i < episode_.posed.size(); ++i) {
-    const std::string& name = episode_.posed[i];
+  const std::size_t width = episode_.scene.posed.size() * FrameTables::kPose;
+  const std::size_t hand_width = episode_.scene.hands.size() * FrameTables::kHand;
+  for (std::size_t i = 0; i < episode_.scene.posed.size(); ++i) {
+    const std::string& name = episode_.scene.posed[i];
     if (wanted("object_pose/" + name))
       add_rows({"object_pose/" + name, "m, 1", "world", kPoseLabels}, 7,
                cut(tables_.object_pose, width, i * FrameTables::kPose, 7));
@@ -178,10 +180,10 @@ void ArrayMaker::objects() {
 void ArrayMaker::low_dimensional_state() {
   if (!wanted("task_low_dim_state")) return;
   std::vector<std::string> labels;
-  for (const std::string& name : episode_.posed)
+  for (const std::string& name : episode_.scene.posed)
     for (const std::string& part : kPoseLabels) labels.push_back(name + "." + part);
-  for (const std::size_t joint : other_joints_) labels.push_back(episode_.joints[joint].name);
-  const std::size_t width = episode_.posed.size() * FrameTables::kPose, joints = episode_.joints.size();
+  for (const std::size_t joint : other_joints_) labels.push_back(episode_.scene.joints[joint].name);
+  const std::size_t width = episode_.scene.posed.size() * FrameTables::kPose, joints = episode_.scene.joints.size();
   std::vector<double> values;
   values.reserve(tables_.frames * labels.size());
   for (std::size_t row = 0; row < tables_.frames; ++row) {
@@ -194,7 +196,7 @@ void ArrayMaker::low_dimensional_state() {
 
 void ArrayMaker::actions() {
   std::vector<std::string> joints;
-  for (const std::size_t place : arm_) joints.push_back(episode_.joints[place].name);
+  for (const std::size_t place : arm_) joints.push_back(episode_.scene.joints[place].name);
   if (wanted("action/joint_position"))
     add_rows({"action/joint_position", "rad", "", std::move(joints)}, tables_.commanded, tables_.action_joint_position);
   if (wanted("action/tool_pose"))
@@ -217,9 +219,9 @@ void ArrayMaker::sensors() {
 }
 
 void ArrayMaker::cameras() {
-  const std::size_t width = episode_.cameras.size() * FrameTables::kPose;
-  for (std::size_t i = 0; i < episode_.cameras.size(); ++i) {
-    const Camera& camera = episode_.cameras[i];
+  const std::size_t width = episode_.scene.cameras.size() * FrameTables::kPose;
+  for (std::size_t i = 0; i < episode_.scene.cameras.size(); ++i) {
+    const Camera& camera = episode_.scene.cameras[i];
     const std::string prefix = camera.name + "_camera_";
     if (wanted(prefix + "extrinsics"))
       add({prefix + "extrinsics", "m", "world"}, {arrays_.frames, 4, 4},
@@ -316,7 +318,8 @@ EpisodeArrays episode_arrays(const EpisodeRecord& episode, const ArrayRequest& r
     stored[{image.camera, image.kind}].push_back(image.frame);
   }
   for (auto& [which, frames] : stored)
-    set_stored(arrays, episode.cameras.at(static_cast<std::size_t>(which.first)).name, which.second, std::move(frames));
+    set_stored(arrays, episode.scene.cameras.at(static_cast<std::size_t>(which.first)).name, which.second,
+               std::move(frames));
   return arrays;
 }
 

@@ -11,19 +11,19 @@ constexpr std::size_t kImagesInMemory = 8'000'000;  // the rest of an ImageStore
 
 std::int64_t bytes_of(const EpisodeRecord& episode) {
   std::size_t frame = sizeof(FrameRecord) + sizeof(ActionRecord);
-  frame += episode.joints.size() * 4 * sizeof(double) + episode.posed.size() * sizeof(Pose);
-  frame += episode.hands.size() * sizeof(HandRecord) + episode.cameras.size() * sizeof(Pose);
-  std::size_t bytes = episode.frames.size() * frame + episode.scene_document.size();
+  frame += episode.scene.joints.size() * 4 * sizeof(double) + episode.scene.posed.size() * sizeof(Pose);
+  frame += episode.scene.hands.size() * sizeof(HandRecord) + episode.scene.cameras.size() * sizeof(Pose);
+  std::size_t bytes = episode.frames.size() * frame + episode.scene.document.size();
   for (const Command& command : episode.commands) {
     bytes += sizeof(Command);
     if (const auto* follow = std::get_if<operation::Follow>(&command.operation))
       bytes += follow->trajectory.knots.size() * 200;
   }
-  for (const DefinitionRecord& definition : episode.definitions) bytes += definition.source.size();
-  for (const DocumentRecord& document : episode.documents) bytes += document.text.size();
+  for (const DefinitionRecord& definition : episode.made.definitions) bytes += definition.source.size();
+  for (const DocumentRecord& document : episode.labels.documents) bytes += document.text.size();
   for (const ChannelRecord& channel : episode.channels) bytes += channel.values.size() * sizeof(double);
   if (episode.images) bytes += std::min(static_cast<std::size_t>(episode.images->bytes()), kImagesInMemory);
-  return static_cast<std::int64_t>(bytes) + 400 * static_cast<std::int64_t>(episode.facts.size());
+  return static_cast<std::int64_t>(bytes) + 400 * static_cast<std::int64_t>(episode.labels.facts.size());
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ void EpisodeQueue::finished(std::int64_t place, EpisodeRecord episode) {
   if (episode.reason == Reason::interrupted) return abandon(place);
   const std::int64_t bytes = bytes_of(episode);
   std::unique_lock lock(mutex_);
-  if (!known_.insert(episode.key).second) {
+  if (!known_.insert(episode.made.key).second) {
     gone_.insert(place);
     return changed_.notify_all();
   }

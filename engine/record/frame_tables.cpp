@@ -50,7 +50,7 @@ FrameTables frame_tables(const EpisodeRecord& episode) {
       tables.hand.insert(tables.hand.end(), hand.touch.begin(), hand.touch.end());
     }
     for (const Pose& pose : frame.camera_pose) add(tables.camera_pose, pose);
-    tables.camera_pose.resize(tables.step.size() * episode.cameras.size() * FrameTables::kPose, kNotStored);
+    tables.camera_pose.resize(tables.step.size() * episode.scene.cameras.size() * FrameTables::kPose, kNotStored);
     add_action(tables, frame.action);
   }
   return tables;

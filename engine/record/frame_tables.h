@@ -17,10 +17,10 @@ struct FrameTables {
   std::vector<std::int64_t> step;
   std::vector<double> reward;
   std::vector<std::uint8_t> done;
-  std::vector<double> joint_position, joint_velocity, joint_effort;  // frames x EpisodeRecord::joints
-  std::vector<double> object_pose;                                   // frames x EpisodeRecord::posed x kPose
-  std::vector<double> hand;                                          // frames x EpisodeRecord::hands x kHand
-  std::vector<double> camera_pose;                                   // frames x EpisodeRecord::cameras x kPose
+  std::vector<double> joint_position, joint_velocity, joint_effort;  // frames x EpisodeScene::joints
+  std::vector<double> object_pose;                                   // frames x EpisodeScene::posed x kPose
+  std::vector<double> hand;                                          // frames x EpisodeScene::hands x kHand
+  std::vector<double> camera_pose;                                   // frames x EpisodeScene::cameras x kPose
   std::size_t commanded = 0;                                         // joints that actions command
   std::vector<double> action_joint_position;                         // frames x commanded
   std::vector<double> action_tool_pose;                              // frames x kPose

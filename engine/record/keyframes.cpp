@@ -24,8 +24,8 @@ class Watched {
   }
   bool still(std::int64_t i) const {
     const FrameRecord& frame = episode_.frames[static_cast<std::size_t>(i)];
-    for (std::size_t j = 0; j < episode_.joints.size(); ++j)
-      if (episode_.joints[j].driven && episode_.joints[j].kind == "hinge" &&
+    for (std::size_t j = 0; j < episode_.scene.joints.size(); ++j)
+      if (episode_.scene.joints[j].driven && episode_.scene.joints[j].kind == "hinge" &&
           !(std::abs(frame.joint_velocity[j]) <= kStill))
         return false;
     return true;

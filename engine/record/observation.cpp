@@ -128,8 +128,8 @@ Observation chosen(const ObservationChoice& choice) {
 ObservationChoice observation_of(const EpisodeRecord& episode) {
   ObservationChoice choice;
   each_option([&](const char* name, auto field, const auto&) {
-    const auto found = episode.options.find(std::string(kPrefix) + name);
-    if (found != episode.options.end()) read(found->second, choice.*field);
+    const auto found = episode.made.options.find(std::string(kPrefix) + name);
+    if (found != episode.made.options.end()) read(found->second, choice.*field);
   });
   return choice;
 }

@@ -50,7 +50,7 @@ ObservationChoice observation_of(const EpisodeRecord& episode);
 // name, so a long episode with images takes bounded memory. Lifetime: shared; append from one thread.
 struct ImageRecord {
   std::int64_t frame = 0;
-  int camera = 0;    // index in EpisodeRecord::cameras
+  int camera = 0;    // index in EpisodeScene::cameras
   std::string kind;  // rgb depth instance semantic points
   int width = 0, height = 0;
   std::vector<std::pair<int, std::int64_t>> visible = {};  // of kind instance: pixels by instance; else empty

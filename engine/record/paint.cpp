@@ -50,15 +50,15 @@ std::optional<double> last_known(const EpisodeRecord& episode, std::int64_t fram
 SceneState state_at(const Scene& scene, const EpisodeRecord& episode, std::int64_t frame) {
   const FrameRecord& recorded = episode.frames.at(static_cast<std::size_t>(frame));
   SceneState state = initial_state(scene);
-  for (std::size_t i = 0; i < episode.joints.size(); ++i) {
-    const PartRef ref = episode.joints[i].part;
+  for (std::size_t i = 0; i < episode.scene.joints.size(); ++i) {
+    const PartRef ref = episode.scene.joints[i].part;
     if (ref.part == 0) continue;  // a body of its own, which has a pose
     auto& positions = ref.body < 0 ? state.robot_position : state.joint_position.at(static_cast<std::size_t>(ref.body));
     if (const auto position = last_known(episode, frame, i))
       positions.at(static_cast<std::size_t>(ref.part)) = *position;
   }
-  for (std::size_t i = 0; i < episode.posed.size(); ++i) {
-    const Object* object = scene.object(episode.posed[i]);
+  for (std::size_t i = 0; i < episode.scene.posed.size(); ++i) {
+    const Object* object = scene.object(episode.scene.posed[i]);
     if (object == nullptr) continue;
     if (object->kind == ObjectKind::body) {
       const int body = scene.body_index(object->body);
@@ -72,7 +72,7 @@ SceneState state_at(const Scene& scene, const EpisodeRecord& episode, std::int64
   }
   for (const std::vector<std::string>& words : facts_that_show(scene)) {
     const Fact fact{words[0], {words.begin() + 1, words.end()}};
-    for (const FactRecord& known : episode.facts)
+    for (const FactRecord& known : episode.labels.facts)
       if (known.fact == fact && known.first_frame <= frame && (frame < known.end_frame || known.open_end))
         state.facts.insert(words);
   }
@@ -141,8 +141,8 @@ std::vector<std::int64_t> wanted_frames(const EpisodeRecord& episode, WhichFrame
     for (std::int64_t frame = 0; frame < count; ++frame) frames.insert(frames.end(), frame);
   if (which == WhichFrames::keyframes && count > 0) {
     frames = {0, count - 1};
-    for (const auto& [method, list] : episode.keyframes) frames.insert(list.begin(), list.end());
-    for (const SegmentRecord& segment : episode.segments)
+    for (const auto& [method, list] : episode.labels.keyframes) frames.insert(list.begin(), list.end());
+    for (const SegmentRecord& segment : episode.labels.segments)
       if (segment.kind == SegmentKind::skill && segment.span.first_frame < count)
         frames.insert(segment.span.first_frame);
   }
@@ -163,7 +163,7 @@ void paint_frames(EpisodePainter& painter, const Observation& observation, const
 void paint_episode(Renderer& renderer, EpisodeRecord& episode, int encoders) {
   const Observation observation = chosen(observation_of(episode));
   if (observation.images == WhichFrames::none || episode.frames.empty()) return;
-  EpisodePainter painter(renderer, episode, std::make_shared<const Scene>(scene_from_document(episode.scene_document)),
+  EpisodePainter painter(renderer, episode, std::make_shared<const Scene>(scene_from_document(episode.scene.document)),
                          observation);
   const auto images = std::make_shared<ImageStore>();
   paint_frames(painter, observation, wanted_frames(episode, observation.images), *images, encoders);

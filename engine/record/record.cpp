@@ -55,7 +55,7 @@ std::string_view to_string(Split split) { return enum_name(kSplits, split); }
 std::optional<Split> split_from(std::string_view name) { return enum_from<Split>(kSplits, name); }
 
 const std::string* document_of(const EpisodeRecord& episode, DocumentKind kind) {
-  for (const DocumentRecord& one : episode.documents)
+  for (const DocumentRecord& one : episode.labels.documents)
     if (one.kind == kind) return &one.text;
   return nullptr;
 }

@@ -157,10 +157,10 @@ struct FrameRecord {
   std::int64_t step = 0;
   double reward = 0;
   bool done = false;
-  std::vector<double> joint_position, joint_velocity, joint_effort;  // per EpisodeRecord::joints
-  std::vector<Pose> object_pose;                                     // per EpisodeRecord::posed
-  std::vector<HandRecord> hands;                                     // per EpisodeRecord::hands
-  std::vector<Pose> camera_pose;                                     // world, per EpisodeRecord::cameras; or empty
+  std::vector<double> joint_position, joint_velocity, joint_effort;  // per EpisodeScene::joints
+  std::vector<Pose> object_pose;                                     // per EpisodeScene::posed
+  std::vector<HandRecord> hands;                                     // per EpisodeScene::hands
+  std::vector<Pose> camera_pose;                                     // world, per EpisodeScene::cameras; or empty
   std::optional<ActionRecord> action;
 };
 
@@ -251,7 +251,7 @@ struct StreamRecord {
 // When the picture of a frame was taken, s from the start of the episode.
 struct ImageTimeRecord {
   std::int64_t frame = 0;
-  int camera = 0;    // index in EpisodeRecord::cameras
+  int camera = 0;    // index in EpisodeScene::cameras
   std::string kind;  // rgb depth
   double time_s = 0;
   friend bool operator==(const ImageTimeRecord&, const ImageTimeRecord&) = default;
@@ -267,25 +267,19 @@ enum class Split { train, test };
 std::string_view to_string(Split split);
 std::optional<Split> split_from(std::string_view name);
 
-// Of a real episode there are no variation, seed, draws, state hash or commands; its steps are ticks of a clock of
-// physics_hz, as many a frame as make about a microsecond each.
-struct EpisodeRecord {
-  bool real = false;
+// What an episode was made of, and at what cost.
+struct EpisodeOrigin {
   std::string key;  // hash of definitions, task, variation, seed and every option that alters data
-  std::string task, world, variation;
-  std::map<std::string, std::string> axes;  // of the variation
-  std::int64_t seed = 0;
   Split split = Split::train;
-  Outcome outcome = Outcome::failure;
-  Reason reason = Reason::none;
-  std::string detail;
-  std::string beside_goal;                     // what success asks and the PDDL goal does not say; empty: nothing
   std::map<std::string, std::string> options;  // that alter data, as text
   std::vector<DefinitionRecord> definitions;
-  int physics_hz = 240, frame_hz = 20;
-  std::int64_t steps = 0;
-  double duration_s() const { return static_cast<double>(steps) / physics_hz; }
-  std::string scene_document;
+  double draws = 1;                       // starts drawn until init held
+  double wall_s = 0, physics_wall_s = 0;  // host times: outside every hash
+};
+
+// What there was to see and to move, and what stands for it in the frames.
+struct EpisodeScene {
+  std::string document;  // all of it, as canonical JSON
   std::vector<Object> objects;
   std::vector<std::string> posed;  // names of objects whose pose is in frames
   std::vector<JointName> joints;
@@ -293,10 +287,10 @@ struct EpisodeRecord {
   std::vector<Camera> cameras;                    // of the scene
   std::vector<MaskEntry> masks;                   // what the numbers of its masks stand for
   std::map<std::string, std::string> predicates;  // of the domain -> basic derived fixed
-  std::vector<ChannelRecord> channels;
-  std::vector<FrameRecord> frames;
-  std::vector<Command> commands;
-  std::vector<AskedAction> agent_actions;  // in the order in which they were asked for, the asker's before its skill's
+};
+
+// What is said of what happened.
+struct EpisodeLabels {
   std::vector<SegmentRecord> segments;
   std::vector<AttemptRecord> attempts;
   std::vector<ViaRecord> vias;
@@ -307,13 +301,34 @@ struct EpisodeRecord {
   std::vector<LanguageRecord> language;
   std::vector<DocumentRecord> documents;
   std::vector<VerdictRecord> verdicts;
-  std::vector<StreamRecord> streams;                           // of a real episode
-  std::vector<ImageTimeRecord> image_times;                    // likewise, by frame, camera and kind
   std::map<std::string, std::vector<std::int64_t>> keyframes;  // method -> frames
-  std::shared_ptr<const ImageStore> images;                    // null: none were made
-  std::string state_hash;                                      // World::state_hash at the end
-  double draws = 1;                                            // starts drawn until init held
-  double wall_s = 0, physics_wall_s = 0;                       // host times: outside every hash
+};
+
+// Of a real episode there are no variation, seed, draws, state hash or commands; its steps are ticks of a clock of
+// physics_hz, as many a frame as make about a microsecond each.
+struct EpisodeRecord {
+  bool real = false;
+  std::string task, world, variation;
+  std::map<std::string, std::string> axes;  // of the variation
+  std::int64_t seed = 0;
+  EpisodeOrigin made;
+  Outcome outcome = Outcome::failure;
+  Reason reason = Reason::none;
+  std::string detail;
+  std::string beside_goal;  // what success asks and the PDDL goal does not say; empty: nothing
+  int physics_hz = 240, frame_hz = 20;
+  std::int64_t steps = 0;
+  double duration_s() const { return static_cast<double>(steps) / physics_hz; }
+  EpisodeScene scene;
+  std::vector<ChannelRecord> channels;
+  std::vector<FrameRecord> frames;
+  std::vector<Command> commands;
+  std::vector<AskedAction> agent_actions;  // in the order in which they were asked for, the asker's before its skill's
+  EpisodeLabels labels;
+  std::vector<StreamRecord> streams;         // of a real episode
+  std::vector<ImageTimeRecord> image_times;  // likewise, by frame, camera and kind
+  std::shared_ptr<const ImageStore> images;  // null: none were made
+  std::string state_hash;                    // World::state_hash at the end
 };
 
 const std::string* document_of(const EpisodeRecord& episode, DocumentKind kind);  // the first of it, or null

@@ -39,11 +39,11 @@ void describe_scene(const Scene& scene, EpisodeRecord& record) {
   record.world = scene.world;
   record.physics_hz = scene.physics_hz;
   record.frame_hz = scene.frame_hz;
-  record.scene_document = scene_to_document(scene);
-  record.objects = scene.objects;
-  record.cameras = scene.cameras;
-  record.masks = mask_key(scene);
-  record.hands = {scene.robot.name + "." + scene.robot.hand};
+  record.scene.document = scene_to_document(scene);
+  record.scene.objects = scene.objects;
+  record.scene.cameras = scene.cameras;
+  record.scene.masks = mask_key(scene);
+  record.scene.hands = {scene.robot.name + "." + scene.robot.hand};
 }
 
 }  // namespace stampede

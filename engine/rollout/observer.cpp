@@ -54,11 +54,11 @@ EpisodeRecord present(const Rollout& rollout, const RunOptions& options, const E
   now.seed = options.seed;
   now.physics_hz = scene.physics_hz;
   now.frame_hz = scene.frame_hz;
-  now.objects = scene.objects;
-  now.cameras = sized_cameras(scene.cameras, settings);
-  now.joints = reader.joints();
-  now.posed = reader.posed();
-  now.hands = {scene.robot.name + "." + scene.robot.hand};
+  now.scene.objects = scene.objects;
+  now.scene.cameras = sized_cameras(scene.cameras, settings);
+  now.scene.joints = reader.joints();
+  now.scene.posed = reader.posed();
+  now.scene.hands = {scene.robot.name + "." + scene.robot.hand};
   return now;
 }
 
@@ -138,8 +138,9 @@ void Observer::choose(const std::vector<std::string>& channels) {
     const std::string pair = name.substr(kPoseIn.size());
     const std::size_t slash = pair.find('/');
     for (const std::string& thing : {pair.substr(0, slash), slash == std::string::npos ? "" : pair.substr(slash + 1)})
-      if (std::ranges::find(now_.posed, thing) == now_.posed.end())
-        throw Error("channel '" + name + "'", "there is no '" + thing + "' here", did_you_mean(thing, now_.posed));
+      if (std::ranges::find(now_.scene.posed, thing) == now_.scene.posed.end())
+        throw Error("channel '" + name + "'", "there is no '" + thing + "' here",
+                    did_you_mean(thing, now_.scene.posed));
     made_.push_back(name);
     std::erase(unmet, name);
   }
@@ -182,8 +183,8 @@ void Observer::hide(ChannelValue& value) const {
     std::fill_n(data.begin() + static_cast<std::ptrdiff_t>(from), 7, kUnknown);
   };
   if (value.name == "task_low_dim_state") {
-    for (std::size_t i = 0; i < now_.posed.size(); ++i)
-      if (hidden_.contains(now_.posed[i])) unknown(7 * i);
+    for (std::size_t i = 0; i < now_.scene.posed.size(); ++i)
+      if (hidden_.contains(now_.scene.posed[i])) unknown(7 * i);
   } else if (value.name.starts_with("object_pose/") || value.name.starts_with("object_pose_in_tool/")) {
     if (hidden_.contains(value.name.substr(value.name.find('/') + 1))) unknown(0);
   } else if (value.name == "sensor/" + std::string(kMargins)) {

@@ -84,7 +84,7 @@ PictureChannels::PictureChannels(const Rollout& rollout, const EnvironmentSettin
 
 std::vector<PictureChannels::Channel> PictureChannels::all() const {
   std::vector<Channel> channels;
-  for (const Camera& camera : now_.cameras)
+  for (const Camera& camera : now_.scene.cameras)
     for (const PictureChannelKind& kind : kPictureChannels)
       channels.push_back({camera.name + kind.suffix, camera.name, &kind});
   return channels;
@@ -99,7 +99,7 @@ void PictureChannels::choose(std::vector<Channel> channels) {
 }
 
 View PictureChannels::view_from(const std::string& camera, const ScenePoses& poses) const {
-  return {named_camera(now_.cameras, camera),
+  return {named_camera(now_.scene.cameras, camera),
           world_from_camera(*rollout_.scene(), poses, named_camera(rollout_.scene()->cameras, camera))};
 }
 

@@ -165,21 +165,22 @@ void Recorder::forget_segments(std::size_t first_segment) {
 
 void Recorder::finish(EpisodeRecord& episode, std::int64_t end_step) {
   for (const auto& [pair, record] : contacts_open_) contacts_closed_.push_back(record);
-  episode.contacts = contacts_closed_.take();
-  std::sort(episode.contacts.begin(), episode.contacts.end(), [](const ContactRecord& a, const ContactRecord& b) {
-    return std::tie(a.first_frame, a.object_a, a.part_a, a.object_b, a.part_b) <
-           std::tie(b.first_frame, b.object_a, b.part_a, b.object_b, b.part_b);
-  });
+  episode.labels.contacts = contacts_closed_.take();
+  std::sort(episode.labels.contacts.begin(), episode.labels.contacts.end(),
+            [](const ContactRecord& a, const ContactRecord& b) {
+              return std::tie(a.first_frame, a.object_a, a.part_a, a.object_b, a.part_b) <
+                     std::tie(b.first_frame, b.object_a, b.part_a, b.object_b, b.part_b);
+            });
   const auto count = static_cast<std::int64_t>(frames.size());
-  episode.segments = segments.take();
-  for (SegmentRecord& record : episode.segments)
+  episode.labels.segments = segments.take();
+  for (SegmentRecord& record : episode.labels.segments)
     if (record.span.end_step == end_step) record.span.end_frame = count;  // the last frame belongs to what ended there
-  episode.joints = reader_.joints();
-  episode.posed = reader_.posed();
+  episode.scene.joints = reader_.joints();
+  episode.scene.posed = reader_.posed();
   episode.frames = frames.take();
-  episode.attempts = attempts.take();
-  episode.vias = vias.take();
-  episode.grasps = grasps.take();
+  episode.labels.attempts = attempts.take();
+  episode.labels.vias = vias.take();
+  episode.labels.grasps = grasps.take();
   episode.agent_actions = agent_actions.take();
 }
 

@@ -118,7 +118,8 @@ void SkillExecution::start(SkillContext context, int parent) {
   }
   SkillCall call = undrawn_call();
   Impasse impasse;
-  DrawnParameters drawn = draw_continuous(rollout_, symbols_, skills_, context_, options_.witness ? &impasse : nullptr);
+  DrawnParameters drawn =
+      draw_continuous(rollout_, symbols_, skills_, context_, options_.services.witness ? &impasse : nullptr);
   call.continuous = std::move(drawn.values);
   note_parameters(call);
   if (drawn.reason != Reason::none) {
@@ -126,7 +127,7 @@ void SkillExecution::start(SkillContext context, int parent) {
     name_blockers(rollout_, context_, failed,
                   [&] { return draw_continuous(rollout_, symbols_, skills_, context_).reason == Reason::none; });
     impasse.state = state_of(rollout_.view());
-    if (options_.witness) tell(std::move(impasse), failed);
+    if (options_.services.witness) tell(std::move(impasse), failed);
     finish(std::move(failed));
     return;
   }
@@ -204,7 +205,7 @@ void SkillExecution::tell(Impasse impasse, const SkillResult& failed) const {
   impasse.reason = failed.reason;
   impasse.detail = failed.detail;
   impasse.scene = rollout_.scene();
-  options_.witness(impasse);
+  options_.services.witness(impasse);
 }
 
 // The run's own words go first: of this skill, then of all; then those of the call; then the skill's.

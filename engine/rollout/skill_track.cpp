@@ -17,7 +17,7 @@ SkillTrack::SkillTrack(Rollout& rollout, Symbols& symbols, SkillLibrary& skills,
 
 SkillResult SkillTrack::run(const PlanStep& step, std::size_t position, const CallSettings& set, CallMode mode) {
   mode.find_blockers = !mode.random_parameters && asked_.emplace(position, step).second;
-  mode.explain = mode.find_blockers || options_.explain;
+  mode.explain = mode.find_blockers || options_.services.explain;
   SkillRequest request;
   request.step = step;
   request.set = set;

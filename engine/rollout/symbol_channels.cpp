@@ -213,7 +213,7 @@ std::vector<std::string> SymbolChannels::plan() {
   keep_known(asked.problem, rollout_.facts(), {});
   const AssumingPlan found =
       plan_assuming(asked, conceivable(rollout_.facts()), key("assume"), [&](const PlanningTask& planning) {
-        if (options_.planner) return options_.planner(planning.domain, planning.problem);
+        if (options_.planner) return options_.planner.plan(planning.domain, planning.problem);
         return solve_drawn(planning.domain, planning.problem, {}, key("plan"));
       });
   return plan_ = texts_of(found.outcome.plan);

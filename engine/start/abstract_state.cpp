@@ -30,27 +30,28 @@ AbstractState abstract_state(const EpisodeRecord& episode, std::int64_t frame) {
   AbstractState state;
   state.frame = frame;
   std::set<std::string> hiding;
-  for (const FactRecord& record : episode.facts)
+  for (const FactRecord& record : episode.labels.facts)
     if (!record.observed) hiding.insert(record.fact.predicate);
-  for (const FactRecord& record : episode.observed_facts) hiding.insert(record.fact.predicate);
-  for (const FactRecord& record : episode.facts) {
+  for (const FactRecord& record : episode.labels.observed_facts) hiding.insert(record.fact.predicate);
+  for (const FactRecord& record : episode.labels.facts) {
     if (!at(record, frame)) continue;
     state.facts.insert(record.fact);
     if (!hiding.contains(record.fact.predicate)) state.observed.insert(record.fact);
   }
-  for (const FactRecord& record : episode.observed_facts)
+  for (const FactRecord& record : episode.labels.observed_facts)
     if (at(record, frame)) state.observed.insert(record.fact);
   const FrameRecord& recorded = episode.frames[static_cast<std::size_t>(frame)];
-  for (std::size_t i = 0; i < episode.joints.size(); ++i) {
-    const JointName& joint = episode.joints[i];
+  for (std::size_t i = 0; i < episode.scene.joints.size(); ++i) {
+    const JointName& joint = episode.scene.joints[i];
     const double position = recorded.joint_position.at(i);
     state.joints[joint.name] = position;
     if (std::isfinite(joint.lower) && std::isfinite(joint.upper) && joint.lower < joint.upper)
       state.joint_fractions[joint.name] = (position - joint.lower) / (joint.upper - joint.lower);
   }
-  for (std::size_t i = 0; i < episode.posed.size(); ++i) state.poses[episode.posed[i]] = recorded.object_pose.at(i);
-  for (std::size_t i = 0; i < episode.hands.size(); ++i)
-    state.openings[episode.hands[i]] = recorded.hands.at(i).opening;
+  for (std::size_t i = 0; i < episode.scene.posed.size(); ++i)
+    state.poses[episode.scene.posed[i]] = recorded.object_pose.at(i);
+  for (std::size_t i = 0; i < episode.scene.hands.size(); ++i)
+    state.openings[episode.scene.hands[i]] = recorded.hands.at(i).opening;
   return state;
 }
 

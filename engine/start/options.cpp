@@ -79,7 +79,7 @@ std::map<std::string, std::string> RunOptions::as_text() const {
     for (const auto& [name, entry] : *policies) text["policy_" + name] = entry.version;
   if (sensors)
     for (const auto& [name, entry] : *sensors) text["sensor_" + name] = text_of(entry);
-  if (planner) text["planner"] = planner_name;
+  if (planner) text["planner"] = planner.name;
   text.merge(observation.as_text());
   if (randomise) text["randomise"] = text_of(*randomise);
   if (!perturb.empty()) text["perturb"] = to_text(perturb);

@@ -49,7 +49,22 @@ inline std::string subgoal_key(const std::string& name, const std::string& varia
   return variation.empty() ? name : name + " " + variation;
 }
 
-// Everything here alters data and is part of the episode's key. Budgets are counts, never seconds.
+// Instead of our own planner; the name stands for it in the episode's key.
+struct NamedPlanner {
+  std::string name;
+  std::function<PlanOutcome(const Domain& domain, const Problem& problem)> plan;
+  explicit operator bool() const { return plan != nullptr; }
+};
+
+// What serves a run, and alters no data.
+struct RunServices {
+  Renderer* renderer = nullptr;  // draws the images; null: one is made for the episode
+  int encoders = 0;              // threads that encode its images beside the drawing
+  bool explain = false;          // every failed try says why, not only the first of its kind
+  Witness witness;               // told of each step that finds no grasp or place
+};
+
+// Everything here but `services` alters data and is part of the episode's key. Budgets are counts, never seconds.
 struct RunOptions {
   std::int64_t seed = 0;
   Split split = Split::train;
@@ -67,9 +82,7 @@ struct RunOptions {
   int physics_hz = 0, frame_hz = 0;  // 0: the world's
   double horizon_s = 0;              // 0: the task's
   int skills = 20;                   // of a random behaviour: how many it draws
-  // Asked instead of our own planner; `planner_name` stands for it in the key.
-  std::function<PlanOutcome(const Domain& domain, const Problem& problem)> planner;
-  std::string planner_name;
+  NamedPlanner planner;
   // By name: bodies of skills. Their names and versions are in the key. Null: none but those that come with the engine.
   std::shared_ptr<const std::map<std::string, PolicyEntry>> policies;
   // Sensors of the program, likewise.
@@ -78,11 +91,8 @@ struct RunOptions {
   std::optional<Randomisation> randomise;                      // where the world has none of its own
   Perturbation perturb;                                        // beside that
   std::shared_ptr<const std::vector<MadeSentence>> sentences;  // beside the task's own; null: none
-  std::vector<Camera> cameras;   // beside those of the world, or instead of one of the same name
-  Renderer* renderer = nullptr;  // draws the images; null: one is made for the episode. Alters no data.
-  bool explain = false;          // every failed try says why, not only the first of its kind. Alters no data.
-  Witness witness;               // told of each step that finds no grasp or place. Alters no data.
-  int encoders = 0;              // threads that encode its images beside the drawing. Alters no data.
+  std::vector<Camera> cameras;  // beside those of the world, or instead of one of the same name
+  RunServices services;
   std::map<std::string, std::string> as_text() const;
 };
 

@@ -182,7 +182,7 @@ void Refusals::show(const Task& task, const std::string& what, Refused& one, con
   impasse.looked = std::move(one.looked);
   impasse.scene = one.scenes.front().scene;
   impasse.state = initial_state(*impasse.scene);
-  options_.witness(impasse);
+  options_.services.witness(impasse);
 }
 
 std::string Refusals::tell(const Task& task, int draws, bool always_same) {
@@ -198,7 +198,7 @@ std::string Refusals::tell(const Task& task, int draws, bool always_same) {
     all += (all.empty() ? "" : "; ") + text;
     for (std::string& cure : cures(one, draws))
       if (std::ranges::find(cured, cure) == cured.end()) cured.push_back(std::move(cure));
-    if (one.literal && options_.witness) show(task, what, one, text);
+    if (one.literal && options_.services.witness) show(task, what, one, text);
   }
   if (always_same) all += ": in each draw it is the same";
   for (const std::string& cure : cured) all += "; " + cure;

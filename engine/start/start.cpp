@@ -121,16 +121,13 @@ class StartMaker {
   }
 
   // Every start that was drawn so far is the end too.
-  bool nothing_to_do() const {
-    constexpr int kEnough = 10;
-    return refusals_.only(kGoalHolds) >= std::min(kEnough, options_.draws);
-  }
+  bool nothing_to_do() const { return refusals_.only(kGoalHolds) >= enough(); }
 
   // Where what is in the way is the same each time, further draws are no use.
-  bool nothing_varies() const {
-    constexpr int kEnough = 3;
-    return refusals_.same_moment() >= std::min(kEnough, options_.draws);
-  }
+  bool nothing_varies() const { return refusals_.same_moment() >= enough(); }
+
+  // So many draws are alike by chance only where hardly anything varies.
+  int enough() const { return std::min(10, options_.draws); }
 
   template <typename What>
   bool refuse(const What& what) {

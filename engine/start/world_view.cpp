@@ -41,6 +41,46 @@ double signed_distance(const Vector3& beyond) {
   return outside > 0 ? outside : beyond.maxCoeff();
 }
 
+bool in_hand(const WorldView& view, const Object& thing) {
+  const std::optional<PartRef> part = view.held();
+  return part && view.owns(thing, *part);
+}
+
+// While the hand holds it too, its weight says nothing: then any contact from below counts, until it leaves.
+bool borne(const WorldView& view, const Object& below, const Object& above) {
+  if (above.kind != ObjectKind::body || below.kind == ObjectKind::region || below.kind == ObjectKind::hand)
+    return false;
+  const PartRef ref = view.part_of(above.name);
+  const bool held = in_hand(view, above);
+  double upward = 0;
+  for (const Contact& contact : view.world().contacts()) {
+    const bool first = contact.a == ref && view.owns(below, contact.b);
+    if (!first && !(contact.b == ref && view.owns(below, contact.a))) continue;
+    const double side = first ? 1 : -1;
+    if (held && contact.mean_force > 0 && side * contact.normal.z() >= kFromBelow) return true;
+    upward += side * contact.force.z();
+  }
+  if (held || upward <= 0) return false;
+  const double mass = view.scene().bodies[static_cast<std::size_t>(ref.body)].parts[0].mass;
+  return upward >= kSupportShare * mass * view.scene().gravity.norm();
+}
+
+// What rests in or on it is its load: that touches it, and counts as a part of it.
+bool touched_by_others(const WorldView& view, const Object& thing) {
+  const auto& contacts = view.world().contacts();
+  const auto touches = [&](const auto& is_own) {
+    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
+      const bool a = is_own(contact.a), b = is_own(contact.b);
+      return a != b && (a ? contact.b : contact.a).body >= 0;
+    });
+  };
+  if (!touches([&](PartRef part) { return view.owns(thing, part); })) return false;
+  const std::vector<int> load = borne_by(view.scene(), loads(view.world()), view.part_of(thing.name));
+  return touches([&](PartRef part) {
+    return view.owns(thing, part) || std::find(load.begin(), load.end(), part.body) != load.end();
+  });
+}
+
 }  // namespace
 
 const Scene& WorldView::scene() const { return world_->scene(); }
@@ -202,28 +242,9 @@ double WorldView::contact_force(std::string_view a, std::string_view b) const {
   return force;
 }
 
-// While the hand holds it too, its weight says nothing: then any contact from below counts, until it leaves.
-bool WorldView::borne(const Object& below, const Object& above) const {
-  if (above.kind != ObjectKind::body || below.kind == ObjectKind::region || below.kind == ObjectKind::hand)
-    return false;
-  const PartRef ref{body_of(above), above.part};
-  const bool held = holds(above);
-  double upward = 0;
-  for (const Contact& contact : world_->contacts()) {
-    const bool first = contact.a == ref && owns(below, contact.b);
-    if (!first && !(contact.b == ref && owns(below, contact.a))) continue;
-    const double side = first ? 1 : -1;
-    if (held && contact.mean_force > 0 && side * contact.normal.z() >= kFromBelow) return true;
-    upward += side * contact.force.z();
-  }
-  if (held || upward <= 0) return false;
-  const double mass = scene().bodies[static_cast<std::size_t>(ref.body)].parts[0].mass;
-  return upward >= kSupportShare * mass * scene().gravity.norm();
-}
-
 WorldView::Judged WorldView::supports(std::string_view surface, std::string_view name) const {
   const Object &below = object(surface), &above = object(name);
-  const bool on = borne(below, above);
+  const bool on = borne(*this, below, above);
   const int owner = body_of(below);
   if (above.kind != ObjectKind::body || owner < 0 || below.kind == ObjectKind::region) return {on, 0};
   const Box& box = parts_[static_cast<std::size_t>(owner)][static_cast<std::size_t>(below.part)];
@@ -234,20 +255,6 @@ WorldView::Judged WorldView::supports(std::string_view surface, std::string_view
   if (on) return {true, std::max(0.0, inward.head<2>().minCoeff())};
   const Vector3 away(std::max(0.0, -inward.x()), std::max(0.0, -inward.y()), at.z() - box.high.z());
   return {false, -away.norm()};
-}
-
-// What rests in or on it is its load: that touches it, and counts as a part of it.
-bool WorldView::touched_by_others(const Object& thing) const {
-  const auto touches = [&](const auto& is_own) {
-    return std::any_of(world_->contacts().begin(), world_->contacts().end(), [&](const Contact& contact) {
-      const bool a = is_own(contact.a), b = is_own(contact.b);
-      return a != b && (a ? contact.b : contact.a).body >= 0;
-    });
-  };
-  if (!touches([&](PartRef part) { return owns(thing, part); })) return false;
-  const std::vector<int> load = borne_by(scene(), loads(*world_), {body_of(thing), thing.part});
-  return touches(
-      [&](PartRef part) { return owns(thing, part) || std::find(load.begin(), load.end(), part.body) != load.end(); });
 }
 
 // From its lowest point to the highest shape below it, by bounding boxes.
@@ -269,7 +276,7 @@ WorldView::Judged WorldView::carried(std::string_view name) const {
   const Judged held = grasped(name);
   const Object& thing = object(name);
   if (!held.holds || thing.kind == ObjectKind::region) return {false, std::min(0.0, held.margin)};
-  return touched_by_others(thing) ? Judged{false, 0} : Judged{true, drop_below(thing)};
+  return touched_by_others(*this, thing) ? Judged{false, 0} : Judged{true, drop_below(thing)};
 }
 
 bool WorldView::at_rest(std::string_view name) const {
@@ -290,14 +297,9 @@ Transform WorldView::world_from_tip() const { return imagined_ ? imagined_->worl
 
 double WorldView::opening() const { return imagined_ ? imagined_->opening : world_->opening(); }
 
-bool WorldView::holds(const Object& thing) const {
-  const std::optional<PartRef> part = held();
-  return part && owns(thing, *part);
-}
-
 WorldView::Judged WorldView::grasped(std::string_view name) const {
   const Object& thing = object(name);
-  const bool held = holds(thing);
+  const bool held = in_hand(*this, thing);
   const double depth = -box_distance(name, world_from_tip().translation());
   return {held, held ? std::max(0.0, depth) : std::min(0.0, depth)};
 }

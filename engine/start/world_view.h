@@ -85,7 +85,6 @@ class WorldView {
   };
   const History& history() const { return history_; }
   void restore(History history) { history_ = std::move(history); }
-  void attach(World& world) { world_ = &world; }
 
   // The symbols of this moment beside the raw state, where a run keeps them; else null. Predicates never read them.
   const FactTracker* facts() const { return facts_; }
@@ -97,9 +96,6 @@ class WorldView {
 
  private:
   int body_of(const Object& object) const;  // index of its body; -1: none
-  bool holds(const Object& object) const;   // does the hand?
-  bool touched_by_others(const Object& object) const;
-  bool borne(const Object& below, const Object& above) const;
   double drop_below(const Object& object) const;
   std::array<Vector3, 2> bounds_of(PartRef part) const;  // of a body's part in the world
 

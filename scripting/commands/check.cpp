@@ -90,15 +90,15 @@ struct Seen {
   void add(const EpisodeRecord& episode) {
     ++episodes;
     succeeded += episode.outcome == Outcome::success;
-    undone += static_cast<std::int64_t>(episode.attempts.size());
+    undone += static_cast<std::int64_t>(episode.labels.attempts.size());
     simulated_s += episode.duration_s();
-    for (const SegmentRecord& segment : episode.segments) {
+    for (const SegmentRecord& segment : episode.labels.segments) {
       if (segment.kind != SegmentKind::skill) continue;
       auto& [seconds, count] = skills[segment.skill];
       seconds += static_cast<double>(segment.span.end_step - segment.span.start_step) / episode.physics_hz;
       ++count;
     }
-    for (const AttemptRecord& attempt : episode.attempts)
+    for (const AttemptRecord& attempt : episode.labels.attempts)
       if (attempt.segment.reason != Reason::none) ++reasons[std::string(to_string(attempt.segment.reason))];
     if (episode.reason != Reason::none) ++reasons[std::string(to_string(episode.reason))];
   }
@@ -143,8 +143,8 @@ ExitCode check_physics(std::shared_ptr<const Library> library, const Arguments& 
   const std::string pictures = arguments.text("--pictures");
   const bool why = arguments.flag("--why") || !pictures.empty();
   FailedSteps failed_steps;
-  settings.options.explain = why;
-  if (why) settings.options.witness = [&](const Impasse& impasse) { failed_steps.add(impasse); };
+  settings.options.services.explain = why;
+  if (why) settings.options.services.witness = [&](const Impasse& impasse) { failed_steps.add(impasse); };
   if (arguments.flag("--randomise")) settings.options.randomise = default_randomisation();
   settings.options.observation.images = WhichFrames::none;  // nobody would see them
   Progress progress(console);
@@ -202,7 +202,7 @@ ExitCode do_check(const Arguments& arguments, Console& console) {
   check_names(*library, names, all);
   std::vector<Error> shared;  // mistakes in what all files share
   try {
-    if (!all.empty()) library = load_usable_library(arguments);
+    if (!all.empty()) library = load_library(arguments);
   } catch (const LibraryError& errors) {
     shared = errors.errors();
   }

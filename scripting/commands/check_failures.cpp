@@ -67,8 +67,8 @@ void FailedSteps::add(const EpisodeRecord& episode) {
     for (const std::string& argument : segment.arguments) step += " " + argument;
     count(step, segment.reason, segment.detail);
   };
-  for (const AttemptRecord& attempt : episode.attempts) add(attempt.segment);
-  for (const SegmentRecord& segment : episode.segments) add(segment);
+  for (const AttemptRecord& attempt : episode.labels.attempts) add(attempt.segment);
+  for (const SegmentRecord& segment : episode.labels.segments) add(segment);
   if (episode.reason == Reason::init_impossible && !starts_.contains({episode.task, episode.variation, episode.seed}))
     count("init", episode.reason, episode.detail);
 }

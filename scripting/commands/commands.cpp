@@ -51,9 +51,7 @@ int workers_of(const Arguments& arguments) {
 
 std::shared_ptr<const Library> words_of(const Arguments& arguments) { return Library::load_words(roots_of(arguments)); }
 
-std::shared_ptr<const Library> load_library(const Arguments& arguments) { return Library::load(roots_of(arguments)); }
-
-std::shared_ptr<const Library> load_usable_library(const Arguments& arguments, const std::vector<std::string>& tasks) {
+std::shared_ptr<const Library> load_library(const Arguments& arguments, const std::vector<std::string>& tasks) {
   return Library::load_usable(roots_of(arguments), tasks);
 }
 

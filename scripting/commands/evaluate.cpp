@@ -110,14 +110,14 @@ ExitCode do_evaluate(const Arguments& arguments, Console& console) {
   settings.run.workers = workers_of(arguments);
   settings.run.stop = console.stop;
   const std::optional<PolicySettings> acting = policy_settings(arguments, options.observation);
-  const auto library = load_usable_library(arguments, request.tasks);
+  const auto library = load_library(arguments, request.tasks);
   const JobList jobs(*library, request);
   settings.run.cameras = cameras_by_task(library, jobs, arguments);
   const std::string out = arguments.text("--out");
   Progress progress(console);
   settings.run.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
-    const auto perturb = episode.options.find("perturb");
-    const std::string trial = perturb == episode.options.end() ? "" : perturb->second + ", ";
+    const auto perturb = episode.made.options.find("perturb");
+    const std::string trial = perturb == episode.made.options.end() ? "" : perturb->second + ", ";
     progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, trial + episode_line(episode));
   };
   std::optional<PolicyRun> policy;

@@ -25,8 +25,8 @@ PhysicalRun run_held_out(const std::shared_ptr<const Library>& library, const He
   options.seed = episode.seed;
   options.observation.images = WhichFrames::none;
   if (planner) {
-    options.planner_name = "learned";
-    options.planner = [&](const Domain& domain, const Problem& problem) {
+    options.planner.name = "learned";
+    options.planner.plan = [&](const Domain& domain, const Problem& problem) {
       return ask_learned(planner, episode, domain, problem);
     };
   }

@@ -20,6 +20,7 @@
 #include "scripting/program/progress.h"
 #include "scripting/runtime/bddl_mapping_reader.h"
 #include "scripting/session/bddl_task_file.h"
+#include "scripting/session/episode_job.h"
 #include "scripting/session/run_job.h"
 
 namespace stampede::program {
@@ -111,9 +112,9 @@ std::string checker_says(const Arguments& arguments, const std::string& task, co
   return {};
 }
 
-// Writes the files and loads the library with them; where it cannot be loaded they do not stay.
+// Writes the files and loads the task with what it needs; where that has mistakes they do not stay.
 std::shared_ptr<const Library> library_with(const Arguments& arguments, const fs::path& root,
-                                            const std::vector<NewFile>& files) {
+                                            const std::vector<NewFile>& files, const std::string& task) {
   std::error_code code;
   for (const NewFile& file : files)
     if (fs::exists(root / file.inside, code) && !holds_text(root / file.inside, file.text))
@@ -125,7 +126,9 @@ std::shared_ptr<const Library> library_with(const Arguments& arguments, const fs
     written.push_back(root / file.inside);
   }
   try {
-    return load_library(arguments);
+    auto library = load_library(arguments, {task});
+    task_info(*library, task);
+    return library;
   } catch (const Error&) {
     for (const fs::path& path : written) fs::remove(path, code);
     throw;
@@ -159,7 +162,7 @@ std::vector<Judged> run_task(const Arguments& arguments, const std::shared_ptr<c
     const EpisodeRecord episode = catalogue.read_episode(one.id);
     Judged result{one.seed, one.outcome, std::string(to_string(one.reason)), {}};
     if (!episode.detail.empty()) result.reason += ", " + episode.detail;
-    if (!episode.verdicts.empty()) result.verdict = episode.verdicts[0];
+    if (!episode.labels.verdicts.empty()) result.verdict = episode.labels.verdicts[0];
     judged.push_back(std::move(result));
   }
   return judged;
@@ -216,8 +219,8 @@ ExitCode import_problem(const Arguments& arguments, Console& console) {
     console.err << file << " cannot be a task here: " << imported.refusal << "\n";
     return kNo;
   }
-  const auto library = library_with(arguments, root, source.files);
-  if (!arguments.list("--path").empty()) write_editor_files(root, *library);
+  const auto library = library_with(arguments, root, source.files, name);
+  if (!arguments.list("--path").empty()) write_editor_files(root, *words_of(arguments));
   bool interrupted = false;
   const std::vector<Judged> judged = run_task(arguments, library, name, console, interrupted);
   print(judged, path, imported, arguments.flag("--json"), console);

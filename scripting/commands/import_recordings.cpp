@@ -90,7 +90,7 @@ ExitCode import_recordings(const Arguments& arguments, Console& console) {
   if (arguments.has("--frame-hz"))
     options.frame_hz = static_cast<int>(in_range(arguments, "--frame-hz", 1, kMostFrameHz));
   if (arguments.has("--world")) options.world = arguments.text("--world");
-  const RecordingStager stager = stager_of(load_usable_library(arguments));
+  const RecordingStager stager = stager_of(load_library(arguments));
   const std::filesystem::path out = arguments.text("--out");
   const bool is_new = !std::filesystem::exists(out);
   Catalogue catalogue = Catalogue::write(out, Journal::in_place);

@@ -33,13 +33,29 @@ const Listing* shelf_named(const std::string& name) {
   return found == std::end(kShelves) ? nullptr : found;
 }
 
-QueryResult shelf_table(const Library& library, const Listing& shelf) {
+// Of a kind, all but those that have mistakes, or use what has: these it tells of.
+std::vector<const ScriptFile*> usable(const Library& library, DefinitionKind kind, Console& console) {
+  std::vector<const ScriptFile*> files = library.files(kind);
+  std::erase_if(files, [&](const ScriptFile* file) {
+    try {
+      library.require_sound({file});
+      return false;
+    } catch (const LibraryError&) {
+      console.err << fmt::format("{} has mistakes, or uses what has; `stampede check {}` names them\n",
+                                 file->shown_path, file->name);
+      return true;
+    }
+  });
+  return files;
+}
+
+QueryResult shelf_table(const Library& library, const Listing& shelf, Console& console) {
   const bool tasks = shelf.kind == DefinitionKind::task;
   QueryResult table;
   table.columns = {"name"};
   if (tasks) table.columns.insert(table.columns.end(), {"variations", "world"});
   table.columns.insert(table.columns.end(), {"description", "file"});
-  for (const ScriptFile* file : library.files(shelf.kind)) {
+  for (const ScriptFile* file : usable(library, shelf.kind, console)) {
     std::vector<SqlValue> row = {file->name};
     if (tasks) {
       const Library::TaskInfo& task = task_info(library, file->name);
@@ -82,13 +98,13 @@ ExitCode print(const QueryResult& table, const Arguments& arguments, Console& co
 }
 
 ExitCode list_hashes(const std::shared_ptr<const Library>& library, const std::string& what, Console& console) {
-  if (const Library::TaskInfo* task = library->task(what)) {
-    console.out << hash_of(library, *task) << "\n";
+  if (library->file(DefinitionKind::task, what) != nullptr) {
+    console.out << hash_of(library, task_info(*library, what)) << "\n";
     return kDone;
   }
   if (what != "tasks") throw UsageError("--hash is of tasks", "stampede list --hash, or stampede list TASK --hash");
-  for (const std::string& name : names_of(library->files(DefinitionKind::task)))
-    console.out << hash_of(library, *library->task(name)) << " " << name << "\n";
+  for (const ScriptFile* file : usable(*library, DefinitionKind::task, console))
+    console.out << hash_of(library, task_info(*library, file->name)) << " " << file->name << "\n";
   return kDone;
 }
 
@@ -123,6 +139,7 @@ ExitCode list_object(const std::shared_ptr<const Library>& library, const Script
 
 ExitCode do_list(const Arguments& arguments, Console& console) {
   const auto library = load_library(arguments);
+  tell_left_out(*library, {}, console);
   const std::string what = arguments.text("WHAT").empty() ? "tasks" : arguments.text("WHAT");
   const ScriptFile* object = library->file(DefinitionKind::object, what);
   const bool drawn = what == "objects" || object != nullptr;
@@ -131,10 +148,11 @@ ExitCode do_list(const Arguments& arguments, Console& console) {
     throw UsageError("--sheet shows objects", "stampede list objects --sheet F");
   if (const Listing* shelf = shelf_named(what)) {
     if (drawn) draw(library, names_of(library->files(DefinitionKind::object)), arguments, console);
-    return print(shelf_table(*library, *shelf), arguments, console);
+    return print(shelf_table(*library, *shelf, console), arguments, console);
   }
   if (what == kNumbers) return print(numbers_table(library->numbers()), arguments, console);
-  if (const Library::TaskInfo* task = library->task(what)) return list_task(*task, arguments, console);
+  if (library->file(DefinitionKind::task, what) != nullptr)
+    return list_task(task_info(*library, what), arguments, console);
   if (object != nullptr) return list_object(library, *object, arguments, console);
   std::vector<std::string> names = names_of(library->files(DefinitionKind::task));
   for (const std::string& name : names_of(library->files(DefinitionKind::object))) names.push_back(name);

@@ -214,7 +214,7 @@ class Asker {
 };
 
 ExitCode do_paraphrase(const Arguments& arguments, Console& console) {
-  return Asker(arguments, load_usable_library(arguments), console).run();
+  return Asker(arguments, load_library(arguments), console).run();
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ std::string bddl_of(const Arguments& arguments, const Library& library, const St
                     const Domain& own, const std::string& task) {
   EpisodeRecord record;
   record.task = task;
-  record.language = {{LanguageLevel::task, question.instructions.front(), -1}};
+  record.labels.language = {{LanguageLevel::task, question.instructions.front(), -1}};
   const StoredSymbols symbols{own, question.plain};
   std::string refusals;
   std::string text =
@@ -48,7 +48,7 @@ EpisodeJob job_of(const Arguments& arguments, const std::shared_ptr<const Librar
 ExitCode plan_task(const Arguments& arguments, Console& console) {
   RunOptions options;
   read_symbol_options(arguments, options);
-  const auto library = load_usable_library(arguments, {arguments.text("TASK")});
+  const auto library = load_library(arguments, {arguments.text("TASK")});
   const EpisodeJob job = job_of(arguments, library, options);
   options.seed = job.seed;
   PreparedEpisode prepared(library, job, options);

@@ -68,8 +68,8 @@ class Questioner {
  private:
   void ask_episode(std::int64_t id, OutputFile& file) {
     const EpisodeRecord episode = catalogue_.read_episode(id);
-    if (episode.scene_document.empty()) return;
-    const Scene scene = scene_from_document(episode.scene_document);
+    if (episode.scene.document.empty()) return;
+    const Scene scene = scene_from_document(episode.scene.document);
     const auto pictures = catalogue_.images(id);
     const std::map<std::int64_t, Pixels> seen = pixels_of(id);
     for (const std::int64_t frame : frames_of(episode, pictures)) {

@@ -38,7 +38,7 @@ fs::path file_in(const Roots& roots, const std::string& shown_path) {
 // Files whose text the catalogue has otherwise than the roots (those that are in both), by their shown paths.
 std::vector<std::string> changed_scripts(const EpisodeRecord& episode, const Roots& roots) {
   std::vector<std::string> changed;
-  for (const DefinitionRecord& definition : episode.definitions) {
+  for (const DefinitionRecord& definition : episode.made.definitions) {
     const fs::path path = file_in(roots, definition.path);
     if (path.empty()) continue;
     std::ifstream file(path, std::ios::binary);
@@ -115,7 +115,7 @@ class Shelf {
   AddedImages add(const Drawn& drawn) {
     const std::lock_guard lock(mutex_);
     std::optional<std::int64_t> id = drawn.stored.id;
-    if (from_) id = into_->find(drawn.stored.episode.key);
+    if (from_) id = into_->find(drawn.stored.episode.made.key);
     if (!id)
       throw Error("--into", fmt::format("the catalogue does not have episode {}", drawn.stored.id),
                   "render into the catalogue that the episode is in");

@@ -71,14 +71,14 @@ void PortraitPainter::paint(std::int64_t frame, Canvas& canvas, int x, int y) {
 }
 
 std::string instruction_of(const EpisodeRecord& episode) {
-  for (const LanguageRecord& one : episode.language)
+  for (const LanguageRecord& one : episode.labels.language)
     if (one.level == LanguageLevel::task) return one.text;
   return episode.task;
 }
 
 const SegmentRecord* skill_at(const EpisodeRecord& episode, std::int64_t frame) {
   const SegmentRecord* found = nullptr;
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     if (segment.kind == SegmentKind::skill && segment.span.first_frame <= frame &&
         (frame < segment.span.end_frame || segment.span.end_frame >= static_cast<std::int64_t>(episode.frames.size())))
       found = &segment;

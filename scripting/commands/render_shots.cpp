@@ -25,7 +25,7 @@ bool is_fixture(const Scene& scene, const Object& object) {
 // What a segment names, and without one all that can move. The hand is where they are: it counts where it is alone.
 std::vector<std::string> things_of(const EpisodeRecord& episode, const SegmentRecord* skill, const Scene& scene) {
   std::vector<std::string> things, hands;
-  for (const std::string& name : skill != nullptr ? skill->arguments : episode.posed) {
+  for (const std::string& name : skill != nullptr ? skill->arguments : episode.scene.posed) {
     const Object* object = scene.object(name);
     if (object == nullptr || is_fixture(scene, *object)) continue;
     (object->kind == ObjectKind::hand ? hands : things).push_back(name);
@@ -87,7 +87,7 @@ std::optional<std::int64_t> comes_true(const EpisodeRecord& episode, const Shot&
   std::optional<std::int64_t> last;
   if (shot.skill == nullptr) return last;
   for (const EffectRecord& effect : shot.skill->declared_effects)
-    for (const FactRecord& record : episode.facts) {
+    for (const FactRecord& record : episode.labels.facts) {
       const bool here = record.first_frame > shot.first_frame && record.first_frame < shot.end_frame;
       if (!effect.negated && here && record.fact == effect.fact) last = std::max(last.value_or(0), record.first_frame);
     }
@@ -145,7 +145,7 @@ std::vector<Shot> shots_of(const EpisodeRecord& episode, const Scene& scene) {
   const auto count = static_cast<std::int64_t>(episode.frames.size());
   std::set<int> skills;
   std::vector<Shot> shots;
-  for (const SegmentRecord& segment : episode.segments) {
+  for (const SegmentRecord& segment : episode.labels.segments) {
     if (segment.kind != SegmentKind::skill) continue;
     skills.insert(segment.ordinal);
     if (skills.contains(segment.parent)) continue;

@@ -80,7 +80,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   settings.workers = workers_of(arguments);
   settings.stop = console.stop;
   const std::optional<PolicySettings> acting = policy_settings(arguments, settings.options.observation);
-  const auto library = load_usable_library(arguments, request.tasks);
+  const auto library = load_library(arguments, request.tasks);
   read_settings(arguments, *library, settings.options);
   leave_out_misfits(library, settings.options, request, console);
   const JobList jobs(*library, request);

@@ -94,8 +94,8 @@ void read_symbol_options(const Arguments& arguments, RunOptions& options) {
     options.skills = static_cast<int>(in_range(arguments, "--skills", 1, kMostSkills));
   }
   if (arguments.has("--planner")) {
-    options.planner_name = arguments.text("--planner");
-    options.planner = named_planner(options.planner_name);
+    options.planner.name = arguments.text("--planner");
+    options.planner.plan = named_planner(options.planner.name);
   }
 }
 

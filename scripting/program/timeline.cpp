@@ -83,8 +83,8 @@ std::string header(const EpisodeRecord& episode, const TimelineStyle& style) {
   text += episode.task + (episode.variation.empty() ? "" : " (" + episode.variation + ")");
   text += episode.real
               ? fmt::format(", recorded, world {}\n", episode.world)
-              : fmt::format(", seed {}, {}, world {}\n", episode.seed, to_string(episode.split), episode.world);
-  for (const LanguageRecord& language : episode.language) {
+              : fmt::format(", seed {}, {}, world {}\n", episode.seed, to_string(episode.made.split), episode.world);
+  for (const LanguageRecord& language : episode.labels.language) {
     if (language.level != LanguageLevel::task) continue;
     text += "“" + language.text + "”\n";
     break;
@@ -97,19 +97,19 @@ std::string header(const EpisodeRecord& episode, const TimelineStyle& style) {
         fmt::format("✗ failure after {:.2f} s: {}, {}", seconds, to_string(episode.reason), describe(episode.reason));
     if (!episode.detail.empty()) text += " (" + episode.detail + ")";
   }
-  text += fmt::format("; {} frames, {} undone tries\n", episode.frames.size(), episode.attempts.size());
+  text += fmt::format("; {} frames, {} undone tries\n", episode.frames.size(), episode.labels.attempts.size());
   return text;
 }
 
 // Facts that began or ended inside the span, as `+ on(a, b)` and `− holding(hand, a)`.
 std::string changes(const EpisodeRecord& episode, const Span& span) {
   std::vector<std::string> texts;
-  for (const FactRecord& fact : episode.facts) {
+  for (const FactRecord& fact : episode.labels.facts) {
     if (!fact.open_end && fact.end_step > span.start_step && fact.end_step <= span.end_step) {
       texts.push_back("− " + fact_text(fact.fact));
     }
   }
-  for (const FactRecord& fact : episode.facts) {
+  for (const FactRecord& fact : episode.labels.facts) {
     if (!fact.open_start && fact.start_step > span.start_step && fact.start_step <= span.end_step) {
       texts.push_back("+ " + fact_text(fact.fact));
     }
@@ -159,9 +159,9 @@ class TimelineWriter {
 
   std::string write() {
     text_ = header(episode_, style_) + "\n" + painter_.ruler();
-    for (const SegmentRecord& segment : episode_.segments)
+    for (const SegmentRecord& segment : episode_.labels.segments)
       if (segment.parent < 0) add_segment(segment, 0);
-    add_undone(static_cast<int>(episode_.segments.size()), 2);
+    add_undone(static_cast<int>(episode_.labels.segments.size()), 2);
     text_ += "\nfacts\n";
     add_facts();
     return std::move(text_);
@@ -174,7 +174,7 @@ class TimelineWriter {
   }
 
   void add_undone(int before_segment, int indent) {
-    for (const AttemptRecord& attempt : episode_.attempts) {
+    for (const AttemptRecord& attempt : episode_.labels.attempts) {
       if (attempt.before_segment != before_segment) continue;
       const Span& span = attempt.segment.span;
       const double seconds = static_cast<double>(span.end_step - span.start_step) / episode_.physics_hz;
@@ -190,7 +190,7 @@ class TimelineWriter {
     add_undone(segment.ordinal, indent + 2);
     std::vector<std::int64_t> marks;
     std::string passed;
-    for (const ViaRecord& via : episode_.vias) {
+    for (const ViaRecord& via : episode_.labels.vias) {
       if (via.segment != segment.ordinal) continue;
       marks.push_back(via.step);
       passed += (passed.empty() ? "◆ " : ", ") +
@@ -206,13 +206,13 @@ class TimelineWriter {
       add_note(changes(episode_, segment.span), indent + 4);
       add_note(parameters_text(segment), indent + 4);
     }
-    for (const SegmentRecord& child : episode_.segments)
+    for (const SegmentRecord& child : episode_.labels.segments)
       if (child.parent == segment.ordinal) add_segment(child, depth + 1);
   }
 
   void add_facts() {
     std::size_t constant = 0;
-    for (const FactRecord& fact : episode_.facts) {
+    for (const FactRecord& fact : episode_.labels.facts) {
       if (fact.open_start && fact.open_end && !style_.constant_facts) {
         ++constant;
         continue;

@@ -27,30 +27,30 @@ void segment_fields(JsonText& json, const SegmentRecord& segment, double hz) {
 std::string timeline_json(const EpisodeRecord& episode) {
   const double hz = episode.physics_hz;
   JsonText json;
-  json.object().field("key", episode.key).field("task", episode.task).field("variation", episode.variation);
-  json.field("seed", episode.seed).field("split", to_string(episode.split)).field("world", episode.world);
+  json.object().field("key", episode.made.key).field("task", episode.task).field("variation", episode.variation);
+  json.field("seed", episode.seed).field("split", to_string(episode.made.split)).field("world", episode.world);
   json.field("outcome", to_string(episode.outcome)).field("reason", to_string(episode.reason));
   json.field("detail", episode.detail).field("duration", episode.duration_s());
   json.field("frames", static_cast<std::int64_t>(episode.frames.size()));
   json.key("segments").array();
-  for (const SegmentRecord& segment : episode.segments) {
+  for (const SegmentRecord& segment : episode.labels.segments) {
     json.object().field("ordinal", segment.ordinal).field("parent", segment.parent);
     segment_fields(json, segment, hz);
     json.end();
   }
   json.end().key("attempts").array();
-  for (const AttemptRecord& attempt : episode.attempts) {
+  for (const AttemptRecord& attempt : episode.labels.attempts) {
     json.object().field("before_segment", attempt.before_segment).field("try", attempt.try_number);
     segment_fields(json, attempt.segment, hz);
     json.end();
   }
   json.end().key("vias").array();
-  for (const ViaRecord& via : episode.vias) {
+  for (const ViaRecord& via : episode.labels.vias) {
     json.object().field("segment", via.segment).field("name", via.name);
     json.field("time", static_cast<double>(via.step) / hz).field("joint_speed", via.speed).end();
   }
   json.end().key("facts").array();
-  for (const FactRecord& fact : episode.facts) {
+  for (const FactRecord& fact : episode.labels.facts) {
     json.object().field("predicate", fact.fact.predicate);
     strings(json, "arguments", fact.fact.arguments);
     json.field("start", static_cast<double>(fact.start_step) / hz)

@@ -28,8 +28,8 @@ std::string slotted(const std::string& label, const std::vector<Parameter>& para
 Scene at_frame(const EpisodeRecord& episode, Scene scene, std::int64_t frame) {
   if (frame < 0 || frame >= static_cast<std::int64_t>(episode.frames.size())) return scene;
   const FrameRecord& record = episode.frames[static_cast<std::size_t>(frame)];
-  for (std::size_t i = 0; i < episode.posed.size() && i < record.object_pose.size(); ++i) {
-    const Object* object = scene.object(episode.posed[i]);
+  for (std::size_t i = 0; i < episode.scene.posed.size() && i < record.object_pose.size(); ++i) {
+    const Object* object = scene.object(episode.scene.posed[i]);
     const int body = object == nullptr ? -1 : scene.body_index(object->body);
     const Transform at = to_transform(record.object_pose[i]);
     if (body >= 0 && at.matrix().allFinite()) scene.bodies[static_cast<std::size_t>(body)].world_from_body = at;
@@ -41,9 +41,9 @@ class QuestionMaker {
  public:
   QuestionMaker(const EpisodeRecord& episode, const Domain& domain, const Scene& scene, std::int64_t frame)
       : episode_(episode), domain_(domain), start_(scene), scene_(at_frame(episode, scene, frame)), frame_(frame) {
-    for (const FactRecord& fact : episode.facts)
+    for (const FactRecord& fact : episode.labels.facts)
       if (fact.first_frame <= frame && frame < fact.end_frame) facts_.insert(fact.fact);
-    for (const FactRecord& fact : episode.facts) ever_.insert(fact.fact);
+    for (const FactRecord& fact : episode.labels.facts) ever_.insert(fact.fact);
   }
 
   std::vector<FrameQuestion> make() {
@@ -180,7 +180,7 @@ class QuestionMaker {
 
   void ask_skills() {
     const SegmentRecord *next = nullptr, *last = nullptr;
-    for (const SegmentRecord& segment : episode_.segments) {
+    for (const SegmentRecord& segment : episode_.labels.segments) {
       if (segment.kind != SegmentKind::skill || segment.label.empty()) continue;
       if (!is_named(segment)) continue;
       if (segment.span.first_frame >= frame_ && next == nullptr) next = &segment;
@@ -208,7 +208,7 @@ class QuestionMaker {
 
   // What was so before is declared too, and is no change.
   bool came_true(const EffectRecord& effect, const Span& span) const {
-    return std::any_of(episode_.facts.begin(), episode_.facts.end(), [&](const FactRecord& one) {
+    return std::any_of(episode_.labels.facts.begin(), episode_.labels.facts.end(), [&](const FactRecord& one) {
       const std::int64_t at = effect.negated ? one.end_frame : one.first_frame;
       return one.fact == effect.fact && at > span.first_frame && at <= span.end_frame;
     });
@@ -234,8 +234,8 @@ class QuestionMaker {
       return called && !kUnder.contains(name) && called->find("left") == std::string::npos &&
              called->find("right") == std::string::npos && called->find("middle") == std::string::npos;
     };
-    for (std::size_t i = 0; i < episode_.posed.size() && i < frame.object_pose.size(); ++i) {
-      const Object* object = scene_.object(episode_.posed[i]);
+    for (std::size_t i = 0; i < episode_.scene.posed.size() && i < frame.object_pose.size(); ++i) {
+      const Object* object = scene_.object(episode_.scene.posed[i]);
       if (object == nullptr || object->kind != ObjectKind::body || !can_be_asked(object->name)) continue;
       const Vector3 at = camera_from_world * to_transform(frame.object_pose[i]).translation();
       if (at.z() > 0.05 && std::isfinite(at.x())) seen.emplace_back(object->name, at.x() / at.z());

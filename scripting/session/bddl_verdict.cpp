@@ -111,7 +111,7 @@ class Geometry {
 
   std::set<std::string> touching(const std::string& body) const {
     std::set<std::string> names;
-    for (const ContactRecord& contact : episode_.contacts) {
+    for (const ContactRecord& contact : episode_.labels.contacts) {
       // Contacts are summed over the steps up to a frame: that of the last one is the one that ends there.
       if (contact.end_frame < last_) continue;
       const std::string* other = contact.object_a == body   ? &contact.object_b
@@ -187,7 +187,7 @@ VerdictRecord bddl_verdict(const EpisodeRecord& episode, const ImportedProblem& 
   const symbolic::View ours{state.facts, symbols.domain, symbols.problem.objects};
   BddlVerdicts verdicts;
   if (imported.problem.dialect == BddlDialect::libero) {
-    const Scene scene = scene_from_document(episode.scene_document);
+    const Scene scene = scene_from_document(episode.scene.document);
     const LiberoGeometry geometry(libero_geometry(episode, scene, imported));
     verdicts = judge_both(imported.problem, geometry, imported.task, ours);
   } else {

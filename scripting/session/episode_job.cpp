@@ -176,8 +176,8 @@ std::string episode_key(const std::vector<DefinitionRecord>& definitions, const 
 
 std::string acted_key(const EpisodeRecord& record) {
   Hasher hasher;
-  hasher.text(record.key);
-  for (const auto& [name, value] : record.options) hasher.text(name).text(value);
+  hasher.text(record.made.key);
+  for (const auto& [name, value] : record.made.options) hasher.text(name).text(value);
   for (const Command& command : record.commands)
     hasher.number(command.step).text(operation_kind(command.operation)).text(operation_to_bytes(command.operation));
   for (const AskedAction& one : record.agent_actions) hash_asked(hasher, one);
@@ -209,22 +209,23 @@ EpisodeRecord PreparedEpisode::run(const std::atomic<bool>* stop) {
 EpisodeRecord PreparedEpisode::failed(Reason reason, const std::string& detail) {
   EpisodeRecord record;
   record.axes = scripts_.task()(0).axes;
-  record.options = options_.as_text();
+  record.made.options = options_.as_text();
   record.reason = reason;
   record.detail = detail;
   return record;
 }
 
 void PreparedEpisode::complete(EpisodeRecord& record) const {
-  record.key = key_;
+  record.made.key = key_;
   record.task = job_.task;
   record.variation = job_.variation;
   record.seed = job_.seed;
-  record.split = options_.split;
-  record.definitions = definitions_;
+  record.made.split = options_.split;
+  record.made.definitions = definitions_;
   if (options_.sentences) add_sentences(*options_.sentences, *library_, record);
   if (options_.goal || record.frames.empty()) return;
-  if (const auto imported = imported_problem(library_, job_.task)) record.verdicts = {bddl_verdict(record, *imported)};
+  if (const auto imported = imported_problem(library_, job_.task))
+    record.labels.verdicts = {bddl_verdict(record, *imported)};
 }
 
 }  // namespace stampede

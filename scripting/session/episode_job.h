@@ -76,7 +76,7 @@ std::string episode_key(const std::vector<DefinitionRecord>& definitions, const 
                         const RunOptions& options);
 
 // The same of one in which an agent acted, known when it is over: what was done tells it from every other episode of
-// the same start. `record.key`: that of its start.
+// the same start. `record.made.key`: that of its start.
 std::string acted_key(const EpisodeRecord& record);
 
 // One episode's scripts and key. Lifetime: used by one thread.

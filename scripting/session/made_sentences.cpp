@@ -32,28 +32,29 @@ std::shared_ptr<const std::vector<MadeSentence>> sentences_for(const std::vector
 }
 
 void add_sentences(const std::vector<MadeSentence>& sentences, const Library& library, EpisodeRecord& record) {
-  if (record.scene_document.empty()) return;
-  const Scene scene = scene_from_document(record.scene_document);
+  if (record.scene.document.empty()) return;
+  const Scene scene = scene_from_document(record.scene.document);
   const Domain& domain = library.domain_of(record.task);
   for (const MadeSentence& one : sentences) {
-    if (one.level == LanguageLevel::task) record.language.push_back(row_of(one, one.text));
+    if (one.level == LanguageLevel::task) record.labels.language.push_back(row_of(one, one.text));
     if (one.level == LanguageLevel::world) {
       const Predicate* predicate = domain.predicate(one.of);
-      for (const FactRecord& fact : record.facts)
+      for (const FactRecord& fact : record.labels.facts)
         if (predicate != nullptr && fact.fact.predicate == one.of && fact.start_step == 0)
-          record.language.push_back(row_of(one, fill(one.text, predicate->parameters, fact.fact.arguments, scene)));
+          record.labels.language.push_back(
+              row_of(one, fill(one.text, predicate->parameters, fact.fact.arguments, scene)));
     }
     const SkillInfo* skill = one.level == LanguageLevel::skill ? library.skill(one.of) : nullptr;
-    for (const SegmentRecord& segment : record.segments) {
+    for (const SegmentRecord& segment : record.labels.segments) {
       if (one.level == LanguageLevel::subgoal && segment.kind == SegmentKind::subgoal &&
           one.of == subgoal_key(segment.skill, record.variation))
-        record.language.push_back(row_of(one, one.text, segment.ordinal));
+        record.labels.language.push_back(row_of(one, one.text, segment.ordinal));
       if (segment.skill != one.of) continue;
       if (skill != nullptr && segment.kind == SegmentKind::skill)
-        record.language.push_back(
+        record.labels.language.push_back(
             row_of(one, fill(one.text, skill->parameters, segment.arguments, scene), segment.ordinal));
       if (one.level == LanguageLevel::motion && segment.kind == SegmentKind::motion)
-        record.language.push_back(row_of(one, one.text, segment.ordinal));
+        record.labels.language.push_back(row_of(one, one.text, segment.ordinal));
     }
   }
 }

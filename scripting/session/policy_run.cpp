@@ -65,7 +65,7 @@ EpisodeRecord PolicyRun::act(PreparedEpisode& prepared) {
     world.episode();
     EpisodeRecord record = source->take();
     if (chosen(observation_of(record)).images != WhichFrames::none)
-      paint_episode(*prepared.options().renderer, record, prepared.options().encoders);
+      paint_episode(*prepared.options().services.renderer, record, prepared.options().services.encoders);
     return record;
   } catch (const NoStart& error) {
     return source->failed(error.reason(), error.detail());

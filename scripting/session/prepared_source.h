@@ -30,9 +30,9 @@ class PreparedSource final : public EpisodeSource {
     return {scripts.task(), &scripts.symbols(), &scripts.skills(), prepared_.options(), nullptr};
   }
   Episode close(EpisodeRecord record, const std::shared_ptr<void>&) override {
-    record.options["policy"] = policy_;
+    record.made.options["policy"] = policy_;
     prepared_.complete(record);
-    record.key = acted_key(record);
+    record.made.key = acted_key(record);
     closed_ = std::move(record);
     return {};
   }
@@ -45,7 +45,7 @@ class PreparedSource final : public EpisodeSource {
   // An episode of which nothing is kept but why it failed.
   EpisodeRecord failed(Reason reason, const std::string& detail) {
     EpisodeRecord record = prepared_.failed(reason, detail);
-    record.options["behaviour"] = "agent";
+    record.made.options["behaviour"] = "agent";
     close(std::move(record), nullptr);
     return take();
   }

@@ -128,14 +128,14 @@ class JobRun {
     const EpisodeJob job = jobs_[place];
     if (!bench.assets) bench.assets = assets_of(*library_);
     RunOptions options = options_for(job, settings_);
-    options.renderer = &bench.renderer;
-    options.encoders = encoders_;
+    options.services.renderer = &bench.renderer;
+    options.services.encoders = encoders_;
     PreparedEpisode prepared(library_, job, std::move(options), bench.assets);
     pass_on(bench.assets->remarks());
     if (!settings_.act && is_there(place, job.task, prepared.key())) return;
     EpisodeRecord episode = settings_.act ? settings_.act(prepared) : prepared.run(settings_.stop);
     if (episode.reason == Reason::interrupted) return abandon(place);
-    if (settings_.act && is_there(place, job.task, episode.key)) return;
+    if (settings_.act && is_there(place, job.task, episode.made.key)) return;
     count(episode);
     if (sink_) sink_->finished(place, std::move(episode));
   }

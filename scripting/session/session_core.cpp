@@ -74,7 +74,7 @@ RunOptions options_of(const EpisodeRequest& request) {
 
 Episode told(const EpisodeRecord& record) {
   Episode episode;
-  episode.key = record.key;
+  episode.key = record.made.key;
   episode.task = record.task;
   episode.variation = record.variation;
   episode.seed = record.seed;
@@ -83,7 +83,7 @@ Episode told(const EpisodeRecord& record) {
   episode.detail = record.detail;
   episode.frames = static_cast<std::int64_t>(record.frames.size());
   episode.duration_s = record.duration_s();
-  episode.undone = static_cast<int>(record.attempts.size());
+  episode.undone = static_cast<int>(record.labels.attempts.size());
   return episode;
 }
 
@@ -156,7 +156,7 @@ RunOptions SessionCore::options_for(const EpisodeRequest& request) const {
   options.set = settings_from(request.set, *library_, "EpisodeRequest::set");
   options.policies = policies_;
   options.sensors = sensors_;
-  options.encoders = usable_cores() - 1;  // of an episode alone
+  options.services.encoders = usable_cores() - 1;  // of an episode alone
   return options;
 }
 
@@ -193,7 +193,7 @@ Episode SessionCore::keep_for(const RunRequest& request, EpisodeRecord made) {
     const std::lock_guard lock(mutex_);
     const std::optional<std::int64_t> id = catalogue_to_write().add_if_new(made, {STAMPEDE_VERSION, numerics_probe()});
     Episode episode = told(made);
-    episode.id = id ? *id : catalogue_to_write().find(made.key).value_or(0);  // another run may have been faster
+    episode.id = id ? *id : catalogue_to_write().find(made.made.key).value_or(0);  // another run may have been faster
     return episode;
   }
   Episode episode = told(made);
@@ -266,8 +266,8 @@ class TaskSource final : public EpisodeSource {
   Episode close(EpisodeRecord record, const std::shared_ptr<void>& owner) override {
     const std::lock_guard lock(core_->mutex_);
     static_cast<const PreparedEpisode*>(owner.get())->complete(record);
-    record.key = acted_key(record);
-    if (auto episode = core_->stored(record.key)) return *episode;
+    record.made.key = acted_key(record);
+    if (auto episode = core_->stored(record.made.key)) return *episode;
     return core_->keep(std::move(record));
   }
 

@@ -116,7 +116,7 @@ BddlScene bddl_scene(const EpisodeMoment& moment, const std::string& support) {
   const auto& [episode, scene, symbols, state] = moment;
   BddlScene result;
   result.task = episode.task;
-  for (const LanguageRecord& sentence : episode.language)
+  for (const LanguageRecord& sentence : episode.labels.language)
     if (sentence.level == LanguageLevel::task && result.instruction.empty()) result.instruction = sentence.text;
   for (const Object& object : scene.objects) result.things.push_back(thing_of(object, scene));
   for (const Object& object : scene.objects)
@@ -218,10 +218,11 @@ std::vector<Boundary> skill_boundaries(const EpisodeRecord& episode, const Domai
     PlanStep step;
   };
   std::vector<Done> skills;  // children of skills are part of them
-  for (const SegmentRecord& segment : episode.segments) {
+  for (const SegmentRecord& segment : episode.labels.segments) {
     if (segment.kind != SegmentKind::skill) continue;
-    const bool child = segment.parent >= 0 && static_cast<std::size_t>(segment.parent) < episode.segments.size() &&
-                       episode.segments[static_cast<std::size_t>(segment.parent)].kind == SegmentKind::skill;
+    const bool child = segment.parent >= 0 &&
+                       static_cast<std::size_t>(segment.parent) < episode.labels.segments.size() &&
+                       episode.labels.segments[static_cast<std::size_t>(segment.parent)].kind == SegmentKind::skill;
     const std::string name = segment.case_name.empty() ? segment.skill : segment.skill + "_" + segment.case_name;
     if (child || domain.action(name) == nullptr) continue;  // `wait` changes nothing
     skills.push_back({segment.span.first_frame, segment.span.end_frame, {name, segment.arguments}});

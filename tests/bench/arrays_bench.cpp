@@ -25,7 +25,7 @@ struct Filled {
     Catalogue catalogue = Catalogue::write(path);
     EpisodeRecord copy = episode();
     for (std::int64_t frames = 0; frames < kFrames; frames += static_cast<std::int64_t>(copy.frames.size())) {
-      copy.key = "copy " + std::to_string(episodes);
+      copy.made.key = "copy " + std::to_string(episodes);
       copy.seed = episodes;
       catalogue.add(copy, {"bench", "bench"});
       ++episodes;

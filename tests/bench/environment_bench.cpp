@@ -68,7 +68,7 @@ double step_s(Environment& world, int steps, std::int64_t seed) {
 
 // The same commands to the same scene, and nothing but the world's own steps: CPU seconds of each frame.
 std::vector<double> bare_frames_s(const EpisodeRecord& episode) {
-  World world(std::make_shared<const Scene>(scene_from_document(episode.scene_document)));
+  World world(std::make_shared<const Scene>(scene_from_document(episode.scene.document)));
   world.keep_log(false);
   std::vector<double> frames;
   std::size_t next = 0;
@@ -345,9 +345,9 @@ double rank_correlation(const std::vector<double>& values) {
 // The skills of an episode that nobody called from within another one.
 std::vector<AgentAction> calls_of(const EpisodeRecord& episode) {
   std::vector<AgentAction> calls;
-  for (const SegmentRecord& one : episode.segments) {
+  for (const SegmentRecord& one : episode.labels.segments) {
     if (one.kind != SegmentKind::skill) continue;
-    if (episode.segments.at(static_cast<std::size_t>(one.parent)).kind != SegmentKind::subgoal) continue;
+    if (episode.labels.segments.at(static_cast<std::size_t>(one.parent)).kind != SegmentKind::subgoal) continue;
     const std::string name = one.case_name.empty() ? one.skill : one.skill + "_" + one.case_name;
     calls.push_back({.space = "skill", .frames = 1, .skill = name, .arguments = one.arguments});
   }

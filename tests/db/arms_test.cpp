@@ -12,9 +12,9 @@ namespace {
 // drawer. Each number differs from all others.
 EpisodeRecord episode_of_arm(std::size_t arm, std::size_t before) {
   EpisodeRecord e = sample_episode("lift", "colour=red", 1);
-  e.joints.clear();
+  e.scene.joints.clear();
   const auto add = [&](const std::string& name, int body, bool slides, bool driven) {
-    e.joints.push_back({name, {body, 1}, slides ? "slider" : "hinge", slides ? "m" : "rad", -9, 9, driven});
+    e.scene.joints.push_back({name, {body, 1}, slides ? "slider" : "hinge", slides ? "m" : "rad", -9, 9, driven});
   };
   for (std::size_t j = 1; j <= before; ++j) add("bot.lift" + std::to_string(j), -1, true, false);
   for (std::size_t j = arm; j > 0; --j)
@@ -24,7 +24,7 @@ EpisodeRecord episode_of_arm(std::size_t arm, std::size_t before) {
   double number = 0;
   for (FrameRecord& frame : e.frames) {
     frame.joint_position.clear();
-    for (std::size_t j = 0; j < e.joints.size(); ++j) frame.joint_position.push_back(++number);
+    for (std::size_t j = 0; j < e.scene.joints.size(); ++j) frame.joint_position.push_back(++number);
     frame.joint_velocity = frame.joint_effort = frame.joint_position;
     if (!frame.action) continue;
     frame.action->joint_position.clear();

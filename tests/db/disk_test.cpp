@@ -110,9 +110,9 @@ TEST_CASE("wherever the disk fills up, finished episodes are whole and running a
       const auto stored = catalogue.episodes();
       if (!stored.empty() && stored.size() < list.size()) ++some;
       for (std::size_t i = 0; i < stored.size(); ++i) {
-        CHECK(stored[i].key == list[i].key);  // the first ones, in order
+        CHECK(stored[i].key == list[i].made.key);  // the first ones, in order
         CHECK(catalogue.images(stored[i].id).size() == list[i].images->count());
-        CHECK(catalogue.read_episode(stored[i].id).keyframes == list[i].keyframes);
+        CHECK(catalogue.read_episode(stored[i].id).labels.keyframes == list[i].labels.keyframes);
       }
     }
     run(path, list);
@@ -125,7 +125,7 @@ TEST_CASE("a disk that fills up while pictures are added leaves the catalogue as
   const Folder folder;
   EpisodeRecord e = sample_episode("lift", "colour=red", 1);
   std::vector<CameraTrack> tracks;
-  for (const Camera& camera : e.cameras) tracks.push_back({camera, {}});
+  for (const Camera& camera : e.scene.cameras) tracks.push_back({camera, {}});
   const auto images = sample_images(e, {0, 3, 6, 9, 11}, {"rgb", "depth", "instance"}, 20'000);
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   catalogue.add(e, kEngine);

@@ -179,7 +179,7 @@ TEST_CASE("a read-only file loses nothing: what would write says so and how to g
   const std::string before = bytes_of(path);
   const EpisodeRecord e = sample_episode("lift", "colour=red", 1);
   const auto images = sample_images(e, {0});
-  const std::vector<CameraTrack> tracks{{e.cameras[0], {}}, {e.cameras[1], {}}};
+  const std::vector<CameraTrack> tracks{{e.scene.cameras[0], {}}, {e.scene.cameras[1], {}}};
   const auto refused = [](const std::function<void()>& work) {
     try {
       work();
@@ -226,7 +226,7 @@ TEST_CASE("a disk that takes no more is an error, and what was finished stays") 
   Catalogue catalogue = Catalogue::open(path);
   const auto list = catalogue.episodes();
   REQUIRE(!list.empty());
-  CHECK(catalogue.read_episode(list.back().id).keyframes.size() == 1);
+  CHECK(catalogue.read_episode(list.back().id).labels.keyframes.size() == 1);
 }
 
 TEST_CASE("readers see finished episodes while a run writes") {
@@ -245,5 +245,5 @@ TEST_CASE("the same key is not stored twice") {
   const EpisodeRecord episode = sample_episode("lift", "colour=red", 1);
   catalogue.add(episode, kEngine);
   CHECK_THROWS_AS(catalogue.add(episode, kEngine), CatalogueError);
-  CHECK(catalogue.find(episode.key) == 1);
+  CHECK(catalogue.find(episode.made.key) == 1);
 }

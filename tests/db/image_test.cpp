@@ -14,7 +14,7 @@ EpisodeRecord episode() { return sample_episode("lift", "colour=red", 7); }
 
 std::vector<CameraTrack> tracks(const EpisodeRecord& e) {
   std::vector<CameraTrack> list;
-  for (const Camera& camera : e.cameras) list.push_back({camera, {}});
+  for (const Camera& camera : e.scene.cameras) list.push_back({camera, {}});
   return list;
 }
 
@@ -40,7 +40,7 @@ TEST_CASE("pictures stored with an episode come back byte by byte") {
   REQUIRE(images->count() == list.size());
   for (std::size_t i = 0; i < images->count(); ++i) {
     const ImageRecord& image = images->record(i);
-    const std::string name = e.cameras[static_cast<std::size_t>(image.camera)].name;
+    const std::string name = e.scene.cameras[static_cast<std::size_t>(image.camera)].name;
     CHECK(catalogue.read_image(1, image.frame, name, image.kind) == images->read(i));
     const ImageEntry entry{image.frame, name, image.kind, image.width, image.height, 600};
     CHECK(std::count(list.begin(), list.end(), entry) == 1);
@@ -88,7 +88,7 @@ TEST_CASE("the content hash sees every byte of a picture and every mask") {
   };
   const std::string plain = hash_of("a.db", [](EpisodeRecord&) {});
   CHECK(plain == hash_of("b.db", [](EpisodeRecord&) {}));
-  CHECK(plain != hash_of("c.db", [](EpisodeRecord& e) { e.masks[3].semantic = 2; }));
+  CHECK(plain != hash_of("c.db", [](EpisodeRecord& e) { e.scene.masks[3].semantic = 2; }));
   CHECK(plain != hash_of("d.db", [](EpisodeRecord& e) { e.images = nullptr; }));
   CHECK(plain != hash_of("e.db", [](EpisodeRecord& e) {
           auto other = std::make_shared<ImageStore>();
@@ -135,8 +135,8 @@ TEST_CASE("a camera that the episode does not have comes with its poses") {
   CHECK(catalogue.add_images(1, images, list).added == 1);
   CHECK(catalogue.read_image(1, 5, "side", "rgb") == std::vector<std::uint8_t>{1, 2, 3});
   const EpisodeRecord b = catalogue.read_episode(1);
-  REQUIRE(b.cameras.size() == 3);
-  CHECK(b.cameras[2].name == "side");
+  REQUIRE(b.scene.cameras.size() == 3);
+  CHECK(b.scene.cameras[2].name == "side");
   CHECK(b.frames[10].camera_pose[2] == list.back().world_from_camera[10]);
   CHECK(b.frames[11].camera_pose[2] == list.back().world_from_camera[11]);
   CHECK(b.frames[4].camera_pose[1] == e.frames[4].camera_pose[1]);
@@ -157,7 +157,7 @@ TEST_CASE("a camera of a known name must be that camera, at any size") {
     images.append({0, 0, "rgb", camera.width, camera.height}, {9});
     return catalogue.add_images(1, images, {{camera, {}}}).added;
   };
-  const Camera& wrist = e.cameras[1];
+  const Camera& wrist = e.scene.cameras[1];
   CHECK(add(resized(wrist, 512, 256)) == 1);
   const auto refused = [&](auto change, const std::string& what) {
     Camera other = wrist;
@@ -195,7 +195,7 @@ TEST_CASE("pictures of what is not there are refused") {
   with.images = twice;
   CHECK_THROWS_AS(catalogue.add(with, kEngine), CatalogueError);
   EpisodeRecord ambiguous = e;
-  ambiguous.masks[1].instance = ambiguous.masks[0].instance;
+  ambiguous.scene.masks[1].instance = ambiguous.scene.masks[0].instance;
   CHECK_THROWS_WITH(catalogue.add(ambiguous, kEngine), Contains("mask of panda.link1"));
   CHECK(catalogue.episodes().empty());
   catalogue.add(e, kEngine);

@@ -39,7 +39,7 @@ TEST_CASE("the numbers of masks are named, and objects know their own") {
   EpisodeRecord hidden = sample_episode("lift", "colour=red", 2);
   Object region;
   region.name = "goal", region.kind = ObjectKind::region, region.class_name = region.type = "region";
-  hidden.objects.push_back(region);
+  hidden.scene.objects.push_back(region);
   Catalogue other = Catalogue::write(seen.folder / "b.db");
   other.add(hidden, kEngine);
   CHECK(to_csv(other.query("SELECT mask_id FROM objects WHERE object = 'goal'")) == "mask_id\n0\n");
@@ -54,7 +54,7 @@ TEST_CASE("cameras say how they see and what they hang on") {
   CHECK(seen.number("SELECT focal_y FROM cameras WHERE camera = 'wrist'") == Approx(60 / std::tan(0.6)));
   CHECK(seen.number("SELECT k2 FROM cameras WHERE camera = 'wrist'") == -0.2);
   CHECK(seen.number("SELECT z FROM cameras WHERE camera = 'wrist'") == 0.1);
-  const Pose pose = to_pose(seen.episode.cameras[1].mount_from_camera);
+  const Pose pose = to_pose(seen.episode.scene.cameras[1].mount_from_camera);
   CHECK(seen.number("SELECT qz FROM cameras WHERE camera = 'wrist'") == pose.quaternion[2]);
   CHECK(seen.number("SELECT x FROM cameras WHERE camera = 'front'") == 1);
 }
@@ -66,11 +66,11 @@ TEST_CASE("a camera on furniture is named by the object of that part") {
   chest.name = chest.body = "chest", chest.class_name = chest.type = "chest";
   Object drawer = chest;
   drawer.name = "chest.drawer", drawer.kind = ObjectKind::part, drawer.part = 1;
-  e.objects.insert(e.objects.end(), {chest, drawer});
+  e.scene.objects.insert(e.scene.objects.end(), {chest, drawer});
   // Shuffled numbers: the mask of part 2 has the number that part 1 of a robot would have.
-  e.masks[1] = {2, "chest.door", "chest", "chest", 2};
-  e.cameras[0].mount_body = e.cameras[1].mount_body = "chest";
-  e.cameras[0].mount_part = 0, e.cameras[1].mount_part = 1;
+  e.scene.masks[1] = {2, "chest.door", "chest", "chest", 2};
+  e.scene.cameras[0].mount_body = e.scene.cameras[1].mount_body = "chest";
+  e.scene.cameras[0].mount_part = 0, e.scene.cameras[1].mount_part = 1;
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   catalogue.add(e, kEngine);
   CHECK(to_csv(catalogue.query("SELECT camera, mount FROM cameras")) ==
@@ -79,7 +79,7 @@ TEST_CASE("a camera on furniture is named by the object of that part") {
 
 TEST_CASE("a picture of another size has the focal length of that size") {
   Seen seen;
-  const Camera& wrist = seen.episode.cameras[1];
+  const Camera& wrist = seen.episode.scene.cameras[1];
   ImageStore images;
   images.append({1, 0, "rgb", 500, 300}, {1, 2});
   seen.catalogue.add_images(1, images, {{wrist, {}}});

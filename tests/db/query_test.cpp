@@ -103,7 +103,7 @@ TEST_CASE("wide rows are told value by value, in as many rows as there are of th
   for (const int joint : {0, 11, 12, 29}) {
     INFO(joint);
     const auto index = static_cast<std::size_t>(joint);
-    const std::string of = " FROM joints WHERE frame = 3 AND joint = '" + episode.joints[index].name + "'";
+    const std::string of = " FROM joints WHERE frame = 3 AND joint = '" + episode.scene.joints[index].name + "'";
     CHECK(number("SELECT position" + of) == episode.frames[3].joint_position[index]);
     CHECK(number("SELECT velocity" + of) == episode.frames[3].joint_velocity[index]);
   }
@@ -142,21 +142,21 @@ TEST_CASE("one failure is one row of `failures`: of the goal, of a skill, of a s
     segment.outcome = Outcome::failure, segment.reason = reason;
   };
   EpisodeRecord goal = sample_episode("lift", "colour=red", 1);
-  goal.attempts.clear();
-  SegmentRecord& hold = goal.segments.back();
+  goal.labels.attempts.clear();
+  SegmentRecord& hold = goal.labels.segments.back();
   hold.kind = SegmentKind::motion, hold.skill = "hold";
   fail(hold, Reason::goal_false);
   SegmentRecord subgoal = hold;
   subgoal.kind = SegmentKind::subgoal, subgoal.skill = "goal", subgoal.ordinal = 3;
-  goal.segments.push_back(subgoal);
+  goal.labels.segments.push_back(subgoal);
   EpisodeRecord skill = goal;
-  skill.key = "skill", skill.seed = 2;
-  fail(skill.segments[0], Reason::grasp_missed);
-  fail(skill.segments[1], Reason::grasp_missed);  // the motion in which it happened
-  skill.segments[2].outcome = Outcome::success, skill.segments[2].reason = Reason::none;
-  fail(skill.segments[3], Reason::grasp_missed);
+  skill.made.key = "skill", skill.seed = 2;
+  fail(skill.labels.segments[0], Reason::grasp_missed);
+  fail(skill.labels.segments[1], Reason::grasp_missed);  // the motion in which it happened
+  skill.labels.segments[2].outcome = Outcome::success, skill.labels.segments[2].reason = Reason::none;
+  fail(skill.labels.segments[3], Reason::grasp_missed);
   EpisodeRecord start = sample_episode("lift", "colour=red", 3);
-  start.attempts.clear();
+  start.labels.attempts.clear();
   int number = 0;
   for (auto [episode, reason] : {std::pair(&goal, Reason::goal_false), std::pair(&skill, Reason::grasp_missed),
                                  std::pair(&start, Reason::init_impossible)}) {
@@ -240,7 +240,7 @@ TEST_CASE("progress and applicable skills of each frame are tables, and say what
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   for (const int seed : {1, 2}) {
     EpisodeRecord episode = sample_episode("lift", "colour=red", seed);
-    episode.documents = {
+    episode.labels.documents = {
         {DocumentKind::pddl_domain,
          "(define (domain d) (:requirements :typing) (:types thing)\n(:predicates (hand_empty) (on ?a - "
          "thing ?b - thing))\n(:action pick :parameters (?a - thing) :precondition (and (hand_empty) (on "
@@ -305,7 +305,7 @@ TEST_CASE("a grasp says whence the hand came, in the object's frame and in the w
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   EpisodeRecord episode = sample_episode("lift", "colour=red", 1);
   const double half = std::sqrt(0.5);
-  episode.grasps[0].object_from_tip.quaternion = {1, 0, 0, 0};  // z of the tip is down
+  episode.labels.grasps[0].object_from_tip.quaternion = {1, 0, 0, 0};  // z of the tip is down
   for (FrameRecord& frame : episode.frames) frame.hands.at(0).tip.quaternion = {0, half, 0, half};  // along x
   catalogue.add(episode, kEngine);
   const QueryResult rows = catalogue.query("SELECT * FROM grasps");

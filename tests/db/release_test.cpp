@@ -176,9 +176,9 @@ TEST_CASE("episodes of earlier releases are read whole, migrated or not, and rep
     for (const EpisodeSummary& episode : old.episodes()) {
       const EpisodeRecord record = old.read_episode(episode.id), migrated = now.read_episode(episode.id);
       CHECK(record.frames.size() > 10);
-      CHECK(!record.segments.empty());
+      CHECK(!record.labels.segments.empty());
       CHECK(record.commands.size() == migrated.commands.size());
-      CHECK(record.attempts.size() == migrated.attempts.size());
+      CHECK(record.labels.attempts.size() == migrated.labels.attempts.size());
       // An engine that moves things otherwise than the one of that release names the first frame that differs.
       CHECK(replay_episode(record) == replay_episode(migrated));
     }

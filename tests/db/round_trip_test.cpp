@@ -52,13 +52,16 @@ TEST_CASE("an episode read back is the one that was stored, to the last bit") {
   catalogue.close();
   const EpisodeRecord b = Catalogue::open(folder / "a.db").read_episode(1);
 
-  CHECK(std::tie(a.key, a.task, a.world, a.variation, a.axes, a.seed, a.split, a.outcome, a.reason, a.detail) ==
-        std::tie(b.key, b.task, b.world, b.variation, b.axes, b.seed, b.split, b.outcome, b.reason, b.detail));
-  CHECK(std::tie(a.options, a.physics_hz, a.frame_hz, a.steps, a.state_hash, a.draws, a.wall_s, a.physics_wall_s) ==
-        std::tie(b.options, b.physics_hz, b.frame_hz, b.steps, b.state_hash, b.draws, b.wall_s, b.physics_wall_s));
-  CHECK(a.scene_document == b.scene_document);
-  CHECK(std::tie(a.verdicts, a.beside_goal) == std::tie(b.verdicts, b.beside_goal));
-  CHECK(std::tie(a.posed, a.hands, a.predicates, a.keyframes) == std::tie(b.posed, b.hands, b.predicates, b.keyframes));
+  CHECK(
+      std::tie(a.made.key, a.task, a.world, a.variation, a.axes, a.seed, a.made.split, a.outcome, a.reason, a.detail) ==
+      std::tie(b.made.key, b.task, b.world, b.variation, b.axes, b.seed, b.made.split, b.outcome, b.reason, b.detail));
+  CHECK(std::tie(a.made.options, a.physics_hz, a.frame_hz, a.steps, a.state_hash, a.made.draws, a.made.wall_s,
+                 a.made.physics_wall_s) == std::tie(b.made.options, b.physics_hz, b.frame_hz, b.steps, b.state_hash,
+                                                    b.made.draws, b.made.wall_s, b.made.physics_wall_s));
+  CHECK(a.scene.document == b.scene.document);
+  CHECK(std::tie(a.labels.verdicts, a.beside_goal) == std::tie(b.labels.verdicts, b.beside_goal));
+  CHECK(std::tie(a.scene.posed, a.scene.hands, a.scene.predicates, a.labels.keyframes) ==
+        std::tie(b.scene.posed, b.scene.hands, b.scene.predicates, b.labels.keyframes));
   REQUIRE(a.frames.size() == b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
     INFO("frame " << i);
@@ -81,12 +84,12 @@ TEST_CASE("an episode read back is the one that was stored, to the last bit") {
     CHECK(operation_to_bytes(a.commands[i].operation) == operation_to_bytes(b.commands[i].operation));
     CHECK(robot_of(a.commands[i].operation) == robot_of(b.commands[i].operation));
   }
-  REQUIRE(a.segments.size() == b.segments.size());
-  for (std::size_t i = 0; i < a.segments.size(); ++i) check_segment(a.segments[i], b.segments[i]);
-  REQUIRE(b.attempts.size() == 1);
-  check_segment(a.attempts[0].segment, b.attempts[0].segment);
-  CHECK(a.attempts[0].before_segment == b.attempts[0].before_segment);
-  CHECK(a.attempts[0].try_number == b.attempts[0].try_number);
+  REQUIRE(a.labels.segments.size() == b.labels.segments.size());
+  for (std::size_t i = 0; i < a.labels.segments.size(); ++i) check_segment(a.labels.segments[i], b.labels.segments[i]);
+  REQUIRE(b.labels.attempts.size() == 1);
+  check_segment(a.labels.attempts[0].segment, b.labels.attempts[0].segment);
+  CHECK(a.labels.attempts[0].before_segment == b.labels.attempts[0].before_segment);
+  CHECK(a.labels.attempts[0].try_number == b.labels.attempts[0].try_number);
   CHECK(a.agent_actions == b.agent_actions);
   CHECK(std::signbit(b.agent_actions.at(0).asked.values.at(1)));
 }
@@ -96,62 +99,66 @@ TEST_CASE("names, labels and documents come back too") {
   const EpisodeRecord a = sample_episode("lift", "colour=red", 7);
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   const EpisodeRecord b = catalogue.read_episode(catalogue.add(a, kEngine));
-  REQUIRE(b.objects.size() == a.objects.size());
-  for (std::size_t i = 0; i < a.objects.size(); ++i) {
-    const Object &o = a.objects[i], &p = b.objects[i];
+  REQUIRE(b.scene.objects.size() == a.scene.objects.size());
+  for (std::size_t i = 0; i < a.scene.objects.size(); ++i) {
+    const Object &o = a.scene.objects[i], &p = b.scene.objects[i];
     CHECK(std::tie(o.name, o.kind, o.class_name, o.type, o.traits, o.attributes, o.body, o.part, o.numbers) ==
           std::tie(p.name, p.kind, p.class_name, p.type, p.traits, p.attributes, p.body, p.part, p.numbers));
     CHECK(o.size == p.size);
   }
-  REQUIRE(b.joints.size() == a.joints.size());
-  for (std::size_t i = 0; i < a.joints.size(); ++i) {
-    const JointName &j = a.joints[i], &k = b.joints[i];
+  REQUIRE(b.scene.joints.size() == a.scene.joints.size());
+  for (std::size_t i = 0; i < a.scene.joints.size(); ++i) {
+    const JointName &j = a.scene.joints[i], &k = b.scene.joints[i];
     CHECK(std::tie(j.name, j.part, j.kind, j.unit, j.lower, j.upper, j.driven) ==
           std::tie(k.name, k.part, k.kind, k.unit, k.lower, k.upper, k.driven));
   }
-  REQUIRE(b.observed_facts.size() == 1);
-  CHECK(b.observed_facts[0].fact == a.observed_facts[0].fact);
-  CHECK(b.observed_facts[0].first_frame == 1);
-  CHECK(b.observed_facts[0].open_end);
-  REQUIRE(b.facts.size() == a.facts.size());
-  for (std::size_t i = 0; i < a.facts.size(); ++i) {
-    const FactRecord &f = a.facts[i], &g = b.facts[i];
+  REQUIRE(b.labels.observed_facts.size() == 1);
+  CHECK(b.labels.observed_facts[0].fact == a.labels.observed_facts[0].fact);
+  CHECK(b.labels.observed_facts[0].first_frame == 1);
+  CHECK(b.labels.observed_facts[0].open_end);
+  REQUIRE(b.labels.facts.size() == a.labels.facts.size());
+  for (std::size_t i = 0; i < a.labels.facts.size(); ++i) {
+    const FactRecord &f = a.labels.facts[i], &g = b.labels.facts[i];
     CHECK(std::tie(f.fact, f.start_step, f.end_step, f.first_frame, f.end_frame, f.open_start, f.open_end, f.observed,
                    f.margin) == std::tie(g.fact, g.start_step, g.end_step, g.first_frame, g.end_frame, g.open_start,
                                          g.open_end, g.observed, g.margin));
   }
-  REQUIRE(b.vias.size() == 1);
-  CHECK(
-      std::tie(a.vias[0].segment, a.vias[0].name, a.vias[0].pose, a.vias[0].passed, a.vias[0].step, a.vias[0].speed) ==
-      std::tie(b.vias[0].segment, b.vias[0].name, b.vias[0].pose, b.vias[0].passed, b.vias[0].step, b.vias[0].speed));
-  REQUIRE(b.contacts.size() == 1);
-  CHECK(std::tie(a.contacts[0].object_b, a.contacts[0].part_b, a.contacts[0].end_frame, a.contacts[0].peak_force) ==
-        std::tie(b.contacts[0].object_b, b.contacts[0].part_b, b.contacts[0].end_frame, b.contacts[0].peak_force));
-  REQUIRE(b.grasps.size() == 1);
-  CHECK(std::tie(a.grasps[0].object, a.grasps[0].object_from_tip, a.grasps[0].width, a.grasps[0].held) ==
-        std::tie(b.grasps[0].object, b.grasps[0].object_from_tip, b.grasps[0].width, b.grasps[0].held));
-  REQUIRE(b.language.size() == 2);
-  CHECK(b.language[0].segment == -1);
-  CHECK(b.language[1].segment == 0);
-  CHECK(b.language[1].text == a.language[1].text);
-  REQUIRE(b.documents.size() == 2);
-  CHECK(b.documents[1].text == a.documents[1].text);
-  REQUIRE(b.definitions.size() == 2);
-  CHECK(b.definitions[0].source == a.definitions[0].source);
+  REQUIRE(b.labels.vias.size() == 1);
+  CHECK(std::tie(a.labels.vias[0].segment, a.labels.vias[0].name, a.labels.vias[0].pose, a.labels.vias[0].passed,
+                 a.labels.vias[0].step, a.labels.vias[0].speed) ==
+        std::tie(b.labels.vias[0].segment, b.labels.vias[0].name, b.labels.vias[0].pose, b.labels.vias[0].passed,
+                 b.labels.vias[0].step, b.labels.vias[0].speed));
+  REQUIRE(b.labels.contacts.size() == 1);
+  CHECK(std::tie(a.labels.contacts[0].object_b, a.labels.contacts[0].part_b, a.labels.contacts[0].end_frame,
+                 a.labels.contacts[0].peak_force) ==
+        std::tie(b.labels.contacts[0].object_b, b.labels.contacts[0].part_b, b.labels.contacts[0].end_frame,
+                 b.labels.contacts[0].peak_force));
+  REQUIRE(b.labels.grasps.size() == 1);
+  CHECK(std::tie(a.labels.grasps[0].object, a.labels.grasps[0].object_from_tip, a.labels.grasps[0].width,
+                 a.labels.grasps[0].held) == std::tie(b.labels.grasps[0].object, b.labels.grasps[0].object_from_tip,
+                                                      b.labels.grasps[0].width, b.labels.grasps[0].held));
+  REQUIRE(b.labels.language.size() == 2);
+  CHECK(b.labels.language[0].segment == -1);
+  CHECK(b.labels.language[1].segment == 0);
+  CHECK(b.labels.language[1].text == a.labels.language[1].text);
+  REQUIRE(b.labels.documents.size() == 2);
+  CHECK(b.labels.documents[1].text == a.labels.documents[1].text);
+  REQUIRE(b.made.definitions.size() == 2);
+  CHECK(b.made.definitions[0].source == a.made.definitions[0].source);
   REQUIRE(b.channels.size() == 1);
   CHECK(b.channels[0].steps == a.channels[0].steps);
   CHECK(b.channels[0].values == a.channels[0].values);
-  REQUIRE(b.cameras.size() == 2);
-  CHECK(b.cameras[0].mount_from_camera.matrix() == a.cameras[0].mount_from_camera.matrix());
-  const Camera &c = a.cameras[1], &d = b.cameras[1];
+  REQUIRE(b.scene.cameras.size() == 2);
+  CHECK(b.scene.cameras[0].mount_from_camera.matrix() == a.scene.cameras[0].mount_from_camera.matrix());
+  const Camera &c = a.scene.cameras[1], &d = b.scene.cameras[1];
   CHECK(std::tie(c.name, c.mount_body, c.mount_part, c.width, c.height, c.focal_x, c.focal_y, c.centre_x, c.centre_y,
                  c.distortion, c.near_m, c.far_m) == std::tie(d.name, d.mount_body, d.mount_part, d.width, d.height,
                                                               d.focal_x, d.focal_y, d.centre_x, d.centre_y,
                                                               d.distortion, d.near_m, d.far_m));
   CHECK(c.mount_from_camera.matrix() == d.mount_from_camera.matrix());  // exactly: it is drawn with
-  REQUIRE(b.masks.size() == a.masks.size());
-  for (std::size_t i = 0; i < a.masks.size(); ++i) {
-    const MaskEntry &m = a.masks[i], &n = b.masks[i];
+  REQUIRE(b.scene.masks.size() == a.scene.masks.size());
+  for (std::size_t i = 0; i < a.scene.masks.size(); ++i) {
+    const MaskEntry &m = a.scene.masks[i], &n = b.scene.masks[i];
     CHECK(std::tie(m.instance, m.name, m.object, m.class_name, m.semantic) ==
           std::tie(n.instance, n.name, n.object, n.class_name, n.semantic));
   }
@@ -199,9 +206,9 @@ TEST_CASE("a real episode comes back with what it does not know, and with who la
   CHECK(std::isnan(b.channels.at(0).values.at(1)));
   CHECK(b.streams == a.streams);
   CHECK(b.image_times == a.image_times);
-  CHECK(b.segments[0].labelled_by == Labeller::person);
-  CHECK(b.facts[0].labelled_by == Labeller::model);
-  CHECK(b.language == a.language);
+  CHECK(b.labels.segments[0].labelled_by == Labeller::person);
+  CHECK(b.labels.facts[0].labelled_by == Labeller::model);
+  CHECK(b.labels.language == a.labels.language);
   const auto row = catalogue.query("SELECT source, variation, seed, draws, state_hash FROM episodes").rows.at(0);
   CHECK(std::get<std::string>(row[0]) == "real");
   for (std::size_t i = 1; i < row.size(); ++i) CHECK(std::holds_alternative<std::monostate>(row[i]));
@@ -238,6 +245,6 @@ TEST_CASE("a margin that a predicate did not give comes back as not known, other
   const QueryResult gaps = catalogue.query("SELECT sensor, sample, component FROM sensors WHERE value IS NULL");
   CHECK(to_csv(gaps) == "sensor,sample,component\nmargins,0,1\n");
   measured.channels.at(0).values.at(1) = std::nan("");
-  measured.key = "another";
+  measured.made.key = "another";
   CHECK_THROWS_WITH(catalogue.add(measured, kEngine), Catch::Matchers::Contains("NaN"));
 }

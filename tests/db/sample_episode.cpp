@@ -26,7 +26,7 @@ Fact fact(std::string predicate, std::vector<std::string> arguments) {
 
 void add_scene(EpisodeRecord& e, const SampleSize& size) {
   const std::string points(300, '7');
-  e.scene_document = R"({"bodies":[{"name":"[{\"shapes\":","shapes":[)" + points + "]}],\"robot\":{\"a\":\"" + points +
+  e.scene.document = R"({"bodies":[{"name":"[{\"shapes\":","shapes":[)" + points + "]}],\"robot\":{\"a\":\"" + points +
                      R"(}"},"seed":)" + std::to_string(e.seed) + ",\"shapes\":[]}";
   for (int i = 0; i < size.objects; ++i) {
     Object o;
@@ -36,13 +36,13 @@ void add_scene(EpisodeRecord& e, const SampleSize& size) {
     o.attributes = {{"colour", i == 0 ? "red" : "blue"}, {"size", "small"}};
     o.numbers = {{"open_at", 0.25}};
     o.size = {0.04, 0.04, 0.04};
-    e.objects.push_back(o);
-    e.posed.push_back(o.name);
+    e.scene.objects.push_back(o);
+    e.scene.posed.push_back(o.name);
   }
   for (int i = 0; i < size.joints; ++i)
-    e.joints.push_back({"panda.joint" + std::to_string(i + 1), {-1, i}, "hinge", "rad", -2.9, 2.9, true});
-  e.joints.back() = {"chest.drawer", {3, 1}, "slider", "m", 0, INFINITY, false};
-  e.hands = {"panda.hand"};
+    e.scene.joints.push_back({"panda.joint" + std::to_string(i + 1), {-1, i}, "hinge", "rad", -2.9, 2.9, true});
+  e.scene.joints.back() = {"chest.drawer", {3, 1}, "slider", "m", 0, INFINITY, false};
+  e.scene.hands = {"panda.hand"};
   Camera camera;
   camera.name = "front";
   camera.mount_from_camera = to_transform({{1, 2, 3}, {0, 0, 0, 1}});
@@ -51,11 +51,11 @@ void add_scene(EpisodeRecord& e, const SampleSize& size) {
   wrist.mount_from_camera = looking_at({0.05, -0.0, 0.1}, {0.3, 0.7, -1e-9});
   set_field_of_view(wrist, 1.2, 160, 120);
   wrist.distortion = {0.1, -0.2, 0.001, 0.002, 0.05};
-  e.cameras = {camera, wrist};
-  e.masks = {{1, "panda.link0", "panda", "panda", 3}, {2, "panda.link1", "panda.hand", "hand", 2}};
+  e.scene.cameras = {camera, wrist};
+  e.scene.masks = {{1, "panda.link0", "panda", "panda", 3}, {2, "panda.link1", "panda.hand", "hand", 2}};
   for (int i = 0; i < size.objects; ++i)  // not in the order of names, as numbers are shuffled
-    e.masks.push_back(
-        {3 + i, e.objects[e.objects.size() - 1 - i].name, e.objects[e.objects.size() - 1 - i].name, "cube", 1});
+    e.scene.masks.push_back({3 + i, e.scene.objects[e.scene.objects.size() - 1 - i].name,
+                             e.scene.objects[e.scene.objects.size() - 1 - i].name, "cube", 1});
   e.channels = {{"wrench", "N", {"force_x", "force_y"}, 120, {0, 2}, {0.1, 0.2, 0.3, 0.4}}};
 }
 
@@ -65,12 +65,12 @@ void add_frames(EpisodeRecord& e, const SampleSize& size) {
     f.step = i * 12;
     f.reward = i / 7.0;
     f.done = i + 2 == size.frames;
-    for (std::size_t j = 0; j < e.joints.size(); ++j) {
+    for (std::size_t j = 0; j < e.scene.joints.size(); ++j) {
       const auto q = static_cast<double>(j) + i * 0.1 + static_cast<double>(e.seed);
       f.joint_position.push_back(std::sin(q)), f.joint_velocity.push_back(std::cos(q));
       f.joint_effort.push_back(q * 1e-300);
     }
-    for (std::size_t j = 0; j < e.posed.size(); ++j) f.object_pose.push_back(pose_of(j == 0 ? i * 0.1 : 0.5));
+    for (std::size_t j = 0; j < e.scene.posed.size(); ++j) f.object_pose.push_back(pose_of(j == 0 ? i * 0.1 : 0.5));
     f.hands = {{pose_of(i), {1, 2, 3, 4, 5, 6.5}, 0.08 - i * 1e-3, {0.5, 0.25}}};
     f.camera_pose = {pose_of(i < 5 ? 0 : 1), pose_of(0.2 * i)};
     if (i + 1 < size.frames) f.action = ActionRecord{{0.5 + i, -0.5}, pose_of(-i), 0.02};
@@ -147,32 +147,33 @@ void add_labels(EpisodeRecord& e) {
   SegmentRecord wait;
   wait.kind = SegmentKind::skill, wait.ordinal = 2, wait.robot = "panda", wait.skill = "wait";
   wait.span = {72, e.steps, 6, static_cast<std::int64_t>(e.frames.size())};
-  e.segments = {pick_segment(), motion, wait};
+  e.labels.segments = {pick_segment(), motion, wait};
   AttemptRecord undone{pick_segment(), 0, 1};
   undone.segment.outcome = Outcome::failure, undone.segment.reason = Reason::grasp_missed;
   undone.segment.detail = "closed on nothing", undone.segment.effect_held = false;
   undone.segment.missing_effects = {"(holding panda.hand block1)"};
-  e.attempts = {undone};
-  e.vias = {{1, "approach", pose_of(1), pose_of(1.01), 18, 0.7, 0.2}};
+  e.labels.attempts = {undone};
+  e.labels.vias = {{1, "approach", pose_of(1), pose_of(1.01), 18, 0.7, 0.2}};
   const auto end = static_cast<std::int64_t>(e.frames.size());
   const std::int64_t steps = e.steps;
-  e.observed_facts = {{fact("inside", {"block1", "chest.drawer"}), 12, 40, 1, 4, false, true, true, {}}};
-  e.facts = {{fact("on", {"block1", "table"}), 0, 40, 0, 4, true, false, true, 0.01},
-             {fact("hand_empty", {}), 0, 30, 0, 3, true, false, true, std::nullopt},
-             {fact("holding", {"panda.hand", "block1"}), 30, steps, 3, end, false, true, true, std::nullopt},
-             {fact("lifted", {"block1"}), 50, steps, 5, end, false, true, false, std::nullopt},
-             {fact("near", {"block1", "block2"}), 0, 50, 0, 5, true, false, true, std::nullopt},
-             {fact("clear", {"table"}), 40, steps, 4, end, false, true, true, std::nullopt},
-             {fact("on", {"block2", "table"}), 0, steps, 0, end, true, true, true, std::nullopt}};
-  e.predicates = {{"on", "basic"}, {"holding", "basic"}, {"clear", "derived"}, {"near", "basic"}};
-  e.contacts = {{"block1", "base", "table", "top", 0, 4, 12.5}};
-  e.grasps = {{0, "block1", pose_of(0.3), 0.04, true}};
-  e.language = {{LanguageLevel::task, "lift the red block", -1}, {LanguageLevel::skill, "pick up the red block", 0}};
-  e.documents = {{DocumentKind::pddl_domain, "(define (domain d))"},
-                 {DocumentKind::plan, "(pick block1 table)\n(place block1 shelf)\n"}};
-  e.verdicts = {{"libero", true, false, {"(on block1 shelf)"}}};
+  e.labels.observed_facts = {{fact("inside", {"block1", "chest.drawer"}), 12, 40, 1, 4, false, true, true, {}}};
+  e.labels.facts = {{fact("on", {"block1", "table"}), 0, 40, 0, 4, true, false, true, 0.01},
+                    {fact("hand_empty", {}), 0, 30, 0, 3, true, false, true, std::nullopt},
+                    {fact("holding", {"panda.hand", "block1"}), 30, steps, 3, end, false, true, true, std::nullopt},
+                    {fact("lifted", {"block1"}), 50, steps, 5, end, false, true, false, std::nullopt},
+                    {fact("near", {"block1", "block2"}), 0, 50, 0, 5, true, false, true, std::nullopt},
+                    {fact("clear", {"table"}), 40, steps, 4, end, false, true, true, std::nullopt},
+                    {fact("on", {"block2", "table"}), 0, steps, 0, end, true, true, true, std::nullopt}};
+  e.scene.predicates = {{"on", "basic"}, {"holding", "basic"}, {"clear", "derived"}, {"near", "basic"}};
+  e.labels.contacts = {{"block1", "base", "table", "top", 0, 4, 12.5}};
+  e.labels.grasps = {{0, "block1", pose_of(0.3), 0.04, true}};
+  e.labels.language = {{LanguageLevel::task, "lift the red block", -1},
+                       {LanguageLevel::skill, "pick up the red block", 0}};
+  e.labels.documents = {{DocumentKind::pddl_domain, "(define (domain d))"},
+                        {DocumentKind::plan, "(pick block1 table)\n(place block1 shelf)\n"}};
+  e.labels.verdicts = {{"libero", true, false, {"(on block1 shelf)"}}};
   e.beside_goal = "the task's own test `also` must hold too";
-  e.keyframes = {{"gripper_and_rest", {0, 6, 11}}};
+  e.labels.keyframes = {{"gripper_and_rest", {0, 6, 11}}};
 }
 
 // 8 x 6 pixels, each of one of the `things`, or of none.
@@ -189,15 +190,15 @@ std::vector<std::uint8_t> mask_png(Random& random, std::size_t things) {
 EpisodeRecord sample_episode(const std::string& task, const std::string& variation, std::int64_t seed,
                              const SampleSize& size) {
   EpisodeRecord e;
-  e.key = content_hash(task + variation + std::to_string(seed));
+  e.made.key = content_hash(task + variation + std::to_string(seed));
   e.task = task, e.world = "tabletop", e.variation = variation, e.seed = seed;
   e.axes = {{"colour", variation.substr(variation.find('=') + 1)}};
-  e.split = seed >= 1'000'000 ? Split::test : Split::train;
+  e.made.split = seed >= 1'000'000 ? Split::test : Split::train;
   e.outcome = Outcome::success;
-  e.options = {{"on_failure", "undo"}};
-  e.definitions = {{"skill", "pick", "skills/pick.lua", "-- Grasp.\n", "aa"},
-                   {"task", task, "tasks/" + task + ".lua", "return task {}", "bb"}};
-  e.state_hash = "cc", e.draws = 3, e.wall_s = 0.2, e.physics_wall_s = 0.1;
+  e.made.options = {{"on_failure", "undo"}};
+  e.made.definitions = {{"skill", "pick", "skills/pick.lua", "-- Grasp.\n", "aa"},
+                        {"task", task, "tasks/" + task + ".lua", "return task {}", "bb"}};
+  e.state_hash = "cc", e.made.draws = 3, e.made.wall_s = 0.2, e.made.physics_wall_s = 0.1;
   add_scene(e, size);
   add_frames(e, size);
   add_commands(e);
@@ -210,9 +211,9 @@ EpisodeRecord real_episode() {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   EpisodeRecord e = sample_episode("pour_tea", "", 0);
   e.real = true;
-  e.key = content_hash("pour_tea, recorded");
+  e.made.key = content_hash("pour_tea, recorded");
   e.variation.clear(), e.axes.clear(), e.state_hash.clear();
-  e.commands.clear(), e.agent_actions.clear(), e.attempts.clear(), e.contacts.clear();
+  e.commands.clear(), e.agent_actions.clear(), e.labels.attempts.clear(), e.labels.contacts.clear();
   for (FrameRecord& frame : e.frames) {
     frame.reward = kUnknown;
     for (HandRecord& hand : frame.hands) hand.touch = {kUnknown, kUnknown};
@@ -220,10 +221,10 @@ EpisodeRecord real_episode() {
   e.frames[2].joint_position[0] = kUnknown;
   e.frames[3].hands[0].tip.position = {kUnknown, kUnknown, kUnknown};
   e.channels.at(0).values.at(1) = kUnknown;
-  e.segments.at(0).labelled_by = Labeller::person;
-  e.facts.at(0).labelled_by = Labeller::model;
-  e.language.push_back({LanguageLevel::subgoal, "pour", 0, LanguageSource::person, {}, {}});
-  e.language.push_back({LanguageLevel::task, "tea", -1, LanguageSource::model, LanguageGrain::goal, "small"});
+  e.labels.segments.at(0).labelled_by = Labeller::person;
+  e.labels.facts.at(0).labelled_by = Labeller::model;
+  e.labels.language.push_back({LanguageLevel::subgoal, "pour", 0, LanguageSource::person, {}, {}});
+  e.labels.language.push_back({LanguageLevel::task, "tea", -1, LanguageSource::model, LanguageGrain::goal, "small"});
   e.streams = {{"joints", "joints", "joints.csv", "arm", 0.013, 40, 1.7e9, 1.7e9, 100, 31, 0.02, 1, "linear"}};
   e.image_times = {{1, 0, "rgb", 0.041}, {1, 1, "rgb", 0.06}};
   return e;
@@ -233,16 +234,16 @@ std::shared_ptr<ImageStore> sample_images(const EpisodeRecord& episode, const st
                                           const std::vector<std::string>& kinds, std::size_t bytes) {
   auto store = std::make_shared<ImageStore>();
   for (const std::int64_t frame : frames)
-    for (std::size_t camera = 0; camera < episode.cameras.size(); ++camera)
+    for (std::size_t camera = 0; camera < episode.scene.cameras.size(); ++camera)
       for (const std::string& kind : kinds) {
-        const ImageRecord image{frame, static_cast<int>(camera), kind, episode.cameras[camera].width,
-                                episode.cameras[camera].height};
+        const ImageRecord image{frame, static_cast<int>(camera), kind, episode.scene.cameras[camera].width,
+                                episode.scene.cameras[camera].height};
         Random random(
             RandomKey("sample").with(episode.seed).with(frame).with(static_cast<std::int64_t>(camera)).with(kind));
         std::vector<std::uint8_t> data(bytes);
         for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random.below(256));
         if (kind == "instance") {  // a mask that can be read, with as many bytes: what follows a PNG's end is nothing
-          const std::vector<std::uint8_t> mask = mask_png(random, episode.masks.size());
+          const std::vector<std::uint8_t> mask = mask_png(random, episode.scene.masks.size());
           std::copy_n(mask.begin(), std::min(mask.size(), data.size()), data.begin());
         }
         store->append(image, data);

@@ -80,7 +80,7 @@ TEST_CASE("checks refuse what is on no list") {
   const Folder folder;
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   EpisodeRecord leak = sample_episode("lift", "colour=red", 1'000'000);
-  leak.split = Split::train;  // seeds from a million up are for tests
+  leak.made.split = Split::train;  // seeds from a million up are for tests
   CHECK_THROWS_AS(catalogue.add(leak, kEngine), CatalogueError);
   EpisodeRecord unexplained = sample_episode("lift", "colour=red", 1);
   unexplained.outcome = Outcome::failure;  // without a reason

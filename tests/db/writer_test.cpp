@@ -24,7 +24,7 @@ std::vector<EpisodeRecord> eight() {
 
 std::vector<std::string> keys_of(const std::vector<EpisodeRecord>& episodes) {
   std::vector<std::string> keys;
-  for (const EpisodeRecord& e : episodes) keys.push_back(e.key);
+  for (const EpisodeRecord& e : episodes) keys.push_back(e.made.key);
   return keys;
 }
 
@@ -103,7 +103,8 @@ TEST_CASE("nobody waits for the abandoned, at the end gaps are stepped over") {
   writer.finished(4, interrupted);
   writer.finish();
   CHECK(commits == 3);
-  CHECK(stored_keys(folder / "a.db") == std::vector<std::string>{episodes[1].key, episodes[3].key, episodes[5].key});
+  CHECK(stored_keys(folder / "a.db") ==
+        std::vector<std::string>{episodes[1].made.key, episodes[3].made.key, episodes[5].made.key});
 }
 
 TEST_CASE("running again goes on where it stopped and ends with the same content") {
@@ -115,7 +116,7 @@ TEST_CASE("running again goes on where it stopped and ends with the same content
     int fresh = 0;
     for (std::size_t i = 0; i < episodes.size(); ++i) {
       const auto place = static_cast<std::int64_t>(i);
-      const bool there = writer.has(episodes[i].key);
+      const bool there = writer.has(episodes[i].made.key);
       fresh += there ? 0 : 1;
       // The later half first, so that ids differ from those of one run.
       if (there || most == 0 || (part && i < 4)) {
@@ -145,7 +146,7 @@ TEST_CASE("an episode that is stored already is not stored twice, and nobody wai
   writer.finished(1, episodes[0]);
   writer.finished(2, episodes[1]);
   writer.finish();
-  CHECK(stored_keys(folder / "a.db") == std::vector<std::string>{episodes[0].key, episodes[1].key});
+  CHECK(stored_keys(folder / "a.db") == std::vector<std::string>{episodes[0].made.key, episodes[1].made.key});
 }
 
 TEST_CASE("the content hash sees every value but wall times") {
@@ -158,9 +159,9 @@ TEST_CASE("the content hash sees every value but wall times") {
     return catalogue.content_hash();
   };
   const std::string plain = hash_of("a.db", [](EpisodeRecord&) {});
-  CHECK(plain == hash_of("b.db", [](EpisodeRecord& e) { e.wall_s = 99; }));
+  CHECK(plain == hash_of("b.db", [](EpisodeRecord& e) { e.made.wall_s = 99; }));
   CHECK(plain != hash_of("c.db", [](EpisodeRecord& e) { e.frames[4].joint_effort[1] *= 1 + 1e-15; }));
-  CHECK(plain != hash_of("d.db", [](EpisodeRecord& e) { e.documents[0].text += " "; }));
+  CHECK(plain != hash_of("d.db", [](EpisodeRecord& e) { e.labels.documents[0].text += " "; }));
   CHECK(plain != hash_of("e.db", [](EpisodeRecord& e) { e.commands.pop_back(); }));
 }
 
@@ -204,8 +205,8 @@ TEST_CASE("a key that is known last is the episode's, and one that is there alre
   const Folder folder;
   Catalogue catalogue = Catalogue::write(folder / "a.db");
   EpisodeRecord e = sample_episode("lift", "colour=red", 0);
-  const std::string key = e.key;
-  e.key = "not yet";
+  const std::string key = e.made.key;
+  e.made.key = "not yet";
   CHECK(catalogue.add_if_new(e, kEngine, [&] { return key; }) == 1);
   CHECK(catalogue.find(key) == 1);
   CHECK_FALSE(catalogue.find("not yet"));
@@ -236,5 +237,5 @@ TEST_CASE("killed at any moment, what is there is whole") {
   const EpisodeRecord wanted = sample_episode("lift", "colour=red", last.seed, {120, 15, 10});
   CHECK(last.frames.back().joint_position == wanted.frames.back().joint_position);
   CHECK(last.commands.size() == wanted.commands.size());
-  CHECK(last.keyframes == wanted.keyframes);
+  CHECK(last.labels.keyframes == wanted.labels.keyframes);
 }

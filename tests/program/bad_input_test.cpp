@@ -47,6 +47,33 @@ TEST_CASE("check NAME tells of the modules that the file requires, and of no fil
   CHECK(say({"check", "cube", "--root", kRoot, "--path", mine.text()}).code == kDone);
 }
 
+TEST_CASE("files with mistakes do not keep `list` from telling of all others") {
+  const Folder mine;
+  put(mine, "worlds/objects/stool.lua", "-- A stool.\nreturn object { typ = \"block\" }\n");
+  put(mine, "tasks/begun.lua", "-- Begun.\nreturn task {");
+  put(mine, "tasks/sit.lua", task_of(kTask, "stool", "is.on('cup', 'table')", "is.holding('cup')"));
+  const auto list = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"--root", STAMPEDE_SOURCE_DIR, "--path", mine.text()});
+    return say(words);
+  };
+  const Said tasks = list({"list"});
+  INFO(tasks.out << tasks.err);
+  CHECK(tasks.code == kDone);
+  CHECK(says(tasks.out, "reach_target"));
+  CHECK_FALSE(says(tasks.out, "tasks/sit.lua"));
+  CHECK(says(tasks.err, "tasks/begun.lua has mistakes, or uses what has; `stampede check begun` names them\n"));
+  CHECK(says(tasks.err, "tasks/sit.lua has mistakes, or uses what has"));
+  CHECK(says(tasks.err, "worlds/objects/stool.lua has mistakes"));
+  CHECK(says(list({"list", "objects"}).out, "chest"));
+  CHECK(list({"list", "chest"}).code == kDone);
+  CHECK(list({"list", "reach_target", "--hash"}).code == kDone);
+  const Said begun = list({"list", "begun"}), sit = list({"list", "sit", "--hash"});
+  CHECK(begun.code == kBadInput);
+  CHECK(says(begun.err, "tasks/begun.lua:2"));
+  CHECK(sit.code == kBadInput);
+  CHECK(says(sit.err, "worlds/objects/stool.lua:2"));
+}
+
 TEST_CASE("mistakes in a task are told with place and cure, by `check` and by `run` alike, and nothing is written") {
   struct Case {
     std::string init, goal, place, complaint;

@@ -34,9 +34,9 @@ AgentAction skill(const TaskPlanStep& step) {
 // The skills of an episode that nobody called from within another one.
 std::vector<TaskPlanStep> calls_of(const EpisodeRecord& record) {
   std::vector<TaskPlanStep> calls;
-  for (const SegmentRecord& one : record.segments) {
+  for (const SegmentRecord& one : record.labels.segments) {
     if (one.kind != SegmentKind::skill) continue;
-    if (record.segments.at(static_cast<std::size_t>(one.parent)).kind != SegmentKind::subgoal) continue;
+    if (record.labels.segments.at(static_cast<std::size_t>(one.parent)).kind != SegmentKind::subgoal) continue;
     calls.push_back({one.case_name.empty() ? one.skill : one.skill + "_" + one.case_name, one.arguments});
   }
   return calls;
@@ -126,7 +126,7 @@ TEST_CASE("an agent that plays back a plan's skills gets the bytes of the run") 
     CHECK(acted.key != run.key);
     CHECK(first_difference(session()->arrays(run, {}), without_agent(session()->arrays(acted, {}))) == "");
     CHECK(first_difference(session()->arrays(acted, {}), session()->arrays(run, {})) == "");
-    CHECK(acted.record->segments.size() == run.record->segments.size());
+    CHECK(acted.record->labels.segments.size() == run.record->labels.segments.size());
   }
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("every action space moves the arm within its limits, and what was done
     CHECK(episode.reason == "goal_false");
     REQUIRE(episode.record);
     CHECK(replay_episode(*episode.record).empty());
-    CHECK(episode.record->segments.back().skill == "control");
+    CHECK(episode.record->labels.segments.back().skill == "control");
   }
 }
 
@@ -325,7 +325,7 @@ TEST_CASE("a skill goes on in parts, and another action cuts it off") {
   const Episode episode = parts.episode();
   CHECK(replay_episode(*episode.record).empty());
   std::vector<std::string> names;
-  for (const SegmentRecord& one : episode.record->segments)
+  for (const SegmentRecord& one : episode.record->labels.segments)
     if (one.kind == SegmentKind::skill || one.skill == "control") names.push_back(one.skill);
   CHECK(names == std::vector<std::string>{"pick", "control", "pick"});
 }
@@ -350,7 +350,7 @@ TEST_CASE("parameters and the controller of a skill are the agent's to choose") 
   REQUIRE_FALSE(now.refusal);
   CHECK(now.ended.front().success);
   const Episode episode = world.episode();
-  const auto segment = std::find_if(episode.record->segments.begin(), episode.record->segments.end(),
+  const auto segment = std::find_if(episode.record->labels.segments.begin(), episode.record->labels.segments.end(),
                                     [](const SegmentRecord& one) { return one.kind == SegmentKind::skill; });
   CHECK(segment->controller == "joint_impedance");
   int chosen = 0;

@@ -79,10 +79,10 @@ TEST_CASE("a robot of one's own comes as a URDF, and its poses are those of its 
   const EpisodeRecord e = catalogue.read_episode(id);
   REQUIRE(e.frames.size() == 41);
   std::vector<std::string> names;
-  for (const JointName& joint : e.joints) names.push_back(joint.name);
+  for (const JointName& joint : e.scene.joints) names.push_back(joint.name);
   CHECK(names == std::vector<std::string>{"crane.turn", "crane.shoulder", "crane.elbow", "crane.wrist",
                                           "crane.left_slide", "crane.right_slide"});
-  CHECK(e.joints[4].unit == "m");
+  CHECK(e.scene.joints[4].unit == "m");
   for (std::size_t i = 0; i < e.frames.size(); ++i) {
     const FrameRecord& frame = e.frames[i];
     const auto [turn, shoulder, elbow, wrist] = crane_at(0.05 * static_cast<double>(i));
@@ -151,18 +151,18 @@ TEST_CASE("a recording takes place with our robot, among a world's fixtures, and
   const Lab lab;
   const EpisodeRecord alone = lab.import({}, our_stager());
   CHECK(alone.world == "none");
-  CHECK(alone.objects.size() == 1);  // the hand
-  REQUIRE(alone.definitions.size() == 1);
-  CHECK(alone.definitions[0].path == "worlds/robots/panda.lua");
+  CHECK(alone.scene.objects.size() == 1);  // the hand
+  REQUIRE(alone.made.definitions.size() == 1);
+  CHECK(alone.made.definitions[0].path == "worlds/robots/panda.lua");
   const EpisodeRecord bare = lab.import();  // the same robot, made without Lua: other files, the same numbers
-  CHECK(bare.key != alone.key);
+  CHECK(bare.made.key != alone.made.key);
   CHECK(bare.frames.at(7).hands.at(0).tip == alone.frames.at(7).hands.at(0).tip);
   lab.change([](auto& json) { json["world"] = "tabletop"; });
   const EpisodeRecord there = lab.import({}, our_stager());
   CHECK(there.world == "tabletop");
-  CHECK(std::any_of(there.objects.begin(), there.objects.end(),
+  CHECK(std::any_of(there.scene.objects.begin(), there.scene.objects.end(),
                     [](const Object& object) { return object.name == "table"; }));
-  CHECK(std::any_of(there.definitions.begin(), there.definitions.end(),
+  CHECK(std::any_of(there.made.definitions.begin(), there.made.definitions.end(),
                     [](const DefinitionRecord& file) { return file.kind == "world" && file.name == "tabletop"; }));
 }
 

@@ -188,7 +188,7 @@ TEST_CASE("questions about stored pictures name their camera, hold by the catalo
   for (const ImageEntry& image : catalogue.images(1)) cameras.insert(image.camera);
   const EpisodeRecord episode = catalogue.read_episode(1);
   const auto holds = [&](const std::string& fact, std::int64_t frame) {
-    return std::any_of(episode.facts.begin(), episode.facts.end(), [&](const FactRecord& one) {
+    return std::any_of(episode.labels.facts.begin(), episode.labels.facts.end(), [&](const FactRecord& one) {
       return to_text(one.fact) == fact && one.first_frame <= frame && frame < one.end_frame;
     });
   };

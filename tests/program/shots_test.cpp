@@ -73,8 +73,8 @@ std::shared_ptr<const Scene> scene() {
 // The drawer is shut until frame kOpens and open from kOpen on; then nothing moves.
 EpisodeRecord episode() {
   EpisodeRecord record;
-  record.joints = {{"chest.drawer", {0, 1}, "slider", "m", 0, 0.2, false}};
-  record.posed = {"cube"};
+  record.scene.joints = {{"chest.drawer", {0, 1}, "slider", "m", 0, 0.2, false}};
+  record.scene.posed = {"cube"};
   for (int i = 0; i < kFrames; ++i) {
     FrameRecord& frame = record.frames.emplace_back();
     frame.joint_position = {0.2 * std::clamp(double(i - kOpens) / (kOpen - kOpens), 0.0, 1.0)};
@@ -84,9 +84,9 @@ EpisodeRecord episode() {
 }
 
 void add_skill(EpisodeRecord& record, std::int64_t first, std::int64_t end, const char* thing, int parent = -1) {
-  SegmentRecord& segment = record.segments.emplace_back();
+  SegmentRecord& segment = record.labels.segments.emplace_back();
   segment.kind = SegmentKind::skill;
-  segment.ordinal = static_cast<int>(record.segments.size()) - 1;
+  segment.ordinal = static_cast<int>(record.labels.segments.size()) - 1;
   segment.parent = parent;
   segment.arguments = {thing};
   segment.span.first_frame = first;
@@ -148,11 +148,11 @@ TEST_CASE("the frame that tells of a skill is the one in which its effect comes 
   EpisodeRecord record = episode();
   add_skill(record, 2, 20, "chest.drawer");
   const Fact open{"open", {"chest.drawer"}}, closed{"closed", {"chest.drawer"}};
-  record.segments.front().declared_effects = {{open, false}, {closed, true}};
+  record.labels.segments.front().declared_effects = {{open, false}, {closed, true}};
   FactRecord before, after;
   before.fact = open, before.first_frame = 0, before.end_frame = 1;  // not this one
   after.fact = open, after.first_frame = kOpen - 1, after.end_frame = kFrames;
-  record.facts = {before, after};
+  record.labels.facts = {before, after};
   CHECK(shots_of(record, *scene()).front().telling_frame == kOpen - 1);
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("what turns in its place moves") {
   turning.bodies[0].parts[1].joint.axis = {0, 0, 1};
   turning.bodies[0].parts[1].shapes = {box_at({0.04, 0.04, 0.08}, {0, 0, 0.05})};  // about its own middle
   EpisodeRecord record = episode();
-  record.joints = {{"chest.drawer", {0, 1}, "hinge", "rad", 0, 2, false}};
+  record.scene.joints = {{"chest.drawer", {0, 1}, "hinge", "rad", 0, 2, false}};
   for (FrameRecord& frame : record.frames) frame.joint_position = {10 * frame.joint_position[0]};
   add_skill(record, 0, kFrames, "chest.drawer");
   CHECK(shots_of(record, turning).front().telling_frame == (kOpens + kOpen + 1) / 2);

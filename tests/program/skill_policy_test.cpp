@@ -63,7 +63,7 @@ std::shared_ptr<SessionCore> session(const Folder& folder, const std::string& ru
 }
 
 const SegmentRecord& skill_of(const Episode& episode) {
-  const auto& segments = episode.record->segments;
+  const auto& segments = episode.record->labels.segments;
   return *std::find_if(segments.begin(), segments.end(),
                        [](const SegmentRecord& one) { return one.kind == SegmentKind::skill; });
 }
@@ -83,7 +83,7 @@ TEST_CASE("a policy is the body of a skill: planned, tested, labelled, and repla
   CHECK(skill.effect_held == true);
   CHECK_THAT(skill.label, Catch::StartsWith("reach for the"));
   int policies = 0;
-  for (const SegmentRecord& one : episode.record->segments) policies += one.skill == "policy" ? 1 : 0;
+  for (const SegmentRecord& one : episode.record->labels.segments) policies += one.skill == "policy" ? 1 : 0;
   CHECK(policies == 1);
   const auto& asked = episode.record->agent_actions;  // one at each frame of the skill until it is there
   REQUIRE(asked.size() > 10);
@@ -187,7 +187,7 @@ TEST_CASE("a policy may ask for paths and skills, between set-points") {
   CAPTURE(episode.reason, episode.detail);
   CHECK(episode.outcome == Outcome::success);
   std::vector<std::string> motions;
-  for (const SegmentRecord& one : episode.record->segments)
+  for (const SegmentRecord& one : episode.record->labels.segments)
     if (one.kind == SegmentKind::motion) motions.push_back(one.skill);
   CHECK(motions ==
         std::vector<std::string>{"policy", "brake", "move_to", "policy", "brake", "move_to", "settle", "hold"});

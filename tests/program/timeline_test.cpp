@@ -16,11 +16,11 @@ EpisodeRecord small_episode() {
   e.task = "stack";
   e.variation = "colour=red";
   e.world = "tabletop";
-  e.split = Split::train;
+  e.made.split = Split::train;
   e.seed = 7;
   e.steps = 2400;
   e.reason = Reason::dropped;
-  e.language = {{LanguageLevel::task, "stack red blocks", -1}};
+  e.labels.language = {{LanguageLevel::task, "stack red blocks", -1}};
   SegmentRecord pick, motion, place, tried;
   pick.kind = place.kind = tried.kind = SegmentKind::skill;
   pick.skill = tried.skill = "pick";
@@ -44,14 +44,14 @@ EpisodeRecord small_episode() {
   tried.span = span(0, 240);
   tried.outcome = Outcome::failure;
   tried.reason = Reason::no_grasp;
-  e.segments = {pick, motion, place};
-  e.attempts = {{tried, 0, 1}};
+  e.labels.segments = {pick, motion, place};
+  e.labels.attempts = {{tried, 0, 1}};
   ViaRecord via;
   via.segment = 1;
   via.name = "approach";
   via.step = 240;
   via.speed = 0.42;
-  e.vias = {via};
+  e.labels.vias = {via};
   FactRecord held, still;
   held.fact = {"holding", {"panda.hand", "block1"}};
   held.start_step = 720;
@@ -59,7 +59,7 @@ EpisodeRecord small_episode() {
   still.fact = {"on", {"block2", "table"}};
   still.end_step = 2400;
   still.open_start = still.open_end = true;
-  e.facts = {held, still};
+  e.labels.facts = {held, still};
   return e;
 }
 

@@ -9,11 +9,11 @@ namespace stampede::test {
 
 void check_tiling(const EpisodeRecord& episode) {
   auto verdict = static_cast<std::ptrdiff_t>(episode.frames.size());
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     if (segment.kind == SegmentKind::motion && segment.skill == "hold") verdict = segment.span.first_frame;
   for (const SegmentKind kind : {SegmentKind::subgoal, SegmentKind::skill, SegmentKind::motion}) {
     std::vector<int> covered(episode.frames.size(), 0);
-    for (const SegmentRecord& segment : episode.segments)
+    for (const SegmentRecord& segment : episode.labels.segments)
       if (segment.kind == kind)
         for (std::int64_t frame = segment.span.first_frame; frame < segment.span.end_frame; ++frame)
           ++covered[static_cast<std::size_t>(frame)];

@@ -138,7 +138,7 @@ std::string name_of(const Scene& scene, int body, int part) {
 class Measurement {
  public:
   Measurement(const EpisodeRecord& episode, const OverlapLimits& limits)
-      : episode_(episode), limits_(limits), scene_(scene_from_document(episode.scene_document)) {
+      : episode_(episode), limits_(limits), scene_(scene_from_document(episode.scene.document)) {
     for (int body = -1; body < static_cast<int>(scene_.bodies.size()); ++body)
       for (std::size_t part = 0; part < scene_.body_at(body).parts.size(); ++part) add(body, static_cast<int>(part));
     find_neighbours();
@@ -216,7 +216,7 @@ class Measurement {
       return lump.name == whole || lump.name == object;
     };
     // A contact's frames are those between which it was: at the last of them, too, things are as it left them.
-    return std::ranges::any_of(episode_.contacts, [&](const ContactRecord& contact) {
+    return std::ranges::any_of(episode_.labels.contacts, [&](const ContactRecord& contact) {
       return contact.first_frame <= frame_ && frame_ <= contact.end_frame &&
              ((is(one, contact.object_a, contact.part_a) && is(other, contact.object_b, contact.part_b)) ||
               (is(other, contact.object_a, contact.part_a) && is(one, contact.object_b, contact.part_b)));

@@ -41,7 +41,7 @@ TEST_CASE("a fact that ends when a thing is moved is deleted by skills that know
   CHECK(skills[0] == "wary_pick guard");
   CHECK(skills[2] == "wary_pick rear");
   const SegmentRecord* first = nullptr;
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     if (first == nullptr && segment.kind == SegmentKind::skill) first = &segment;
   CHECK(first->arguments[0] == "guard");
   const EffectRecord ends{{"guards", {"guard", "rear"}}, true};
@@ -77,7 +77,7 @@ TEST_CASE("formulas name parts of variables, and part_of relates them") {
   REQUIRE(episode.outcome == Outcome::success);
   CHECK(skills_of(episode) == std::vector<std::string>{"open chest.top_drawer"});
   const auto holds = [&](const Fact& fact) {
-    return std::any_of(episode.facts.begin(), episode.facts.end(),
+    return std::any_of(episode.labels.facts.begin(), episode.labels.facts.end(),
                        [&](const FactRecord& one) { return one.fact == fact && one.open_end; });
   };
   CHECK(holds({"part_of", {"chest.top_drawer", "chest"}}));
@@ -91,15 +91,15 @@ TEST_CASE("a lid on a thread is a thing of its own: it is unscrewed, let go of, 
   INFO(episode.detail);
   REQUIRE(episode.outcome == Outcome::success);
   CHECK(skills_of(episode) == std::vector<std::string>{"unscrew jar.lid", "place jar.lid"});
-  const auto joined = std::find_if(episode.facts.begin(), episode.facts.end(),
+  const auto joined = std::find_if(episode.labels.facts.begin(), episode.labels.facts.end(),
                                    [](const FactRecord& one) { return one.fact.predicate == "joined"; });
-  REQUIRE(joined != episode.facts.end());
+  REQUIRE(joined != episode.labels.facts.end());
   CHECK((joined->open_start && !joined->open_end));
-  const auto screw = std::find_if(episode.joints.begin(), episode.joints.end(),
+  const auto screw = std::find_if(episode.scene.joints.begin(), episode.scene.joints.end(),
                                   [](const JointName& one) { return one.name == "jar.lid"; });
-  REQUIRE(screw != episode.joints.end());
+  REQUIRE(screw != episode.scene.joints.end());
   CHECK((screw->kind == "screw" && screw->unit == "rad"));
-  const auto place = static_cast<std::size_t>(screw - episode.joints.begin());
+  const auto place = static_cast<std::size_t>(screw - episode.scene.joints.begin());
   const auto at = [&](std::int64_t frame) {
     return episode.frames[static_cast<std::size_t>(frame)].joint_position[place];
   };
@@ -136,12 +136,12 @@ TEST_CASE("contents are load: a full beaker is lifted, a drawer is shut with wha
   const EpisodeRecord beaker = run_task("lift_the_full_beaker", "", {});
   INFO(verdict(beaker));
   CHECK(beaker.outcome == Outcome::success);
-  CHECK(beaker.attempts.empty());  // nothing undone
+  CHECK(beaker.labels.attempts.empty());  // nothing undone
   for (const char* level : {"level=bottom", "level=middle", "level=top"}) {
     const EpisodeRecord drawer = run_task("store_and_shut", level, {}, authors());
     INFO(std::string(level) + ": " + verdict(drawer));
     CHECK(drawer.outcome == Outcome::success);
-    CHECK(drawer.attempts.empty());
+    CHECK(drawer.labels.attempts.empty());
   }
 }
 
@@ -152,8 +152,8 @@ TEST_CASE("a third step that can never be grasped is not tried for ever") {
       return segment.kind == SegmentKind::skill && segment.skill == "pick" && segment.arguments[0] == "far" &&
              segment.reason == Reason::no_grasp;
     };
-    for (const AttemptRecord& attempt : episode.attempts) count += is_it(attempt.segment);
-    for (const SegmentRecord& segment : episode.segments) count += is_it(segment);
+    for (const AttemptRecord& attempt : episode.labels.attempts) count += is_it(attempt.segment);
+    for (const SegmentRecord& segment : episode.labels.segments) count += is_it(segment);
     return count;
   };
   int most = 0;
@@ -175,13 +175,13 @@ TEST_CASE(
   const EpisodeRecord episode = run_authors("wipe_stain");
   INFO(verdict(episode));
   REQUIRE(episode.outcome == Outcome::success);
-  const Scene scene = scene_from_document(episode.scene_document);
+  const Scene scene = scene_from_document(episode.scene.document);
   const Object* tip = scene.object("sponge.tip");
   REQUIRE(tip != nullptr);
   CHECK(tip->kind == ObjectKind::region);
-  const auto wiped = std::find_if(episode.facts.begin(), episode.facts.end(),
+  const auto wiped = std::find_if(episode.labels.facts.begin(), episode.labels.facts.end(),
                                   [](const FactRecord& one) { return one.fact.predicate == "wiped"; });
-  REQUIRE(wiped != episode.facts.end());
+  REQUIRE(wiped != episode.labels.facts.end());
   const ShownFacts gone{{"wiped", "stain"}};
   CHECK(state_at(scene, episode, wiped->first_frame - 1).facts.empty());
   CHECK(state_at(scene, episode, wiped->first_frame).facts == gone);
@@ -198,10 +198,10 @@ TEST_CASE("a lamp shines from the frame on at which its button has been pressed"
   options.seed = 3;
   const EpisodeRecord episode = run_task("lamp_on", first_variation("lamp_on"), options);
   REQUIRE(episode.outcome == Outcome::success);
-  const auto scene = std::make_shared<const Scene>(scene_from_document(episode.scene_document));
-  const auto pressed = std::find_if(episode.facts.begin(), episode.facts.end(),
+  const auto scene = std::make_shared<const Scene>(scene_from_document(episode.scene.document));
+  const auto pressed = std::find_if(episode.labels.facts.begin(), episode.labels.facts.end(),
                                     [](const FactRecord& one) { return one.fact.predicate == "pressed"; });
-  REQUIRE(pressed != episode.facts.end());
+  REQUIRE(pressed != episode.labels.facts.end());
   REQUIRE(pressed->first_frame > 0);
   const ShownFacts lit{{"pressed", "lamp.button"}};
   CHECK(facts_that_show(*scene) == lit);

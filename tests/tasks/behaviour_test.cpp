@@ -20,7 +20,7 @@ TEST_CASE("random skills run in every kind of world, fail with reasons, and repl
   INFO(task << " " << to_string(behaviour) << ": " << verdict(episode));
   CHECK(episode.reason != Reason::script_error);
   std::size_t skills = 0, unmet = 0;
-  for (const SegmentRecord& segment : episode.segments) {
+  for (const SegmentRecord& segment : episode.labels.segments) {
     if (segment.kind != SegmentKind::skill) continue;
     INFO(segment.label << ": " << to_string(segment.reason) << " " << segment.detail);
     ++skills;

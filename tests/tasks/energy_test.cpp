@@ -145,13 +145,13 @@ Scene opened(const Scene& scene, double share) {
 
 TEST_CASE("what is let fall, whatever it is, wins no energy and comes to rest", "[energy]") {
   std::set<std::string> done;
-  for (const std::string& name : shipped_tasks(0, 1)) let_fall(name, done);
+  for (const std::string& name : shipped_tasks()) let_fall(name, done);
   CHECK(done.size() > 60);
 }
 
 TEST_CASE("a mechanism that is let go anywhere on its way wins no energy and comes to rest", "[energy]") {
   int mechanisms = 0;
-  for (const std::string& name : shipped_tasks(0, 1)) {
+  for (const std::string& name : shipped_tasks()) {
     const std::shared_ptr<const Scene> scene = start_of(name);
     if (std::ranges::any_of(scene->bodies, &Body::free)) continue;
     for (const double share : {0.15, 0.4, 0.8}) {

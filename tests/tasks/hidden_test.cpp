@@ -39,9 +39,9 @@ TEST_CASE("an item in a closed drawer is inside and not known to be, until its d
   const auto level = GENERATE(as<std::string>{}, "bottom", "middle", "top");
   const EpisodeRecord episode = find_item(level, 11);
   const std::string drawer = "chest." + level + "_drawer";
-  const FactRecord* real = interval(episode.facts, {"inside", {"item", drawer}});
-  const FactRecord* known = interval(episode.observed_facts, {"inside", {"item", drawer}});
-  const FactRecord* open = interval(episode.facts, {"open", {drawer}});
+  const FactRecord* real = interval(episode.labels.facts, {"inside", {"item", drawer}});
+  const FactRecord* known = interval(episode.labels.observed_facts, {"inside", {"item", drawer}});
+  const FactRecord* open = interval(episode.labels.facts, {"open", {drawer}});
   REQUIRE((real != nullptr && known != nullptr && open != nullptr));
   CHECK(real->open_start);
   CHECK_FALSE(real->observed);
@@ -68,11 +68,11 @@ TEST_CASE("what happens in sight is known while it is so, and no frame longer or
     const EpisodeRecord episode = run_task(task, first_variation(task), options);
     INFO(task);
     std::size_t count = 0;
-    for (const FactRecord& fact : episode.facts) {
+    for (const FactRecord& fact : episode.labels.facts) {
       if (fact.fact.predicate != "inside") continue;
       ++count;
       CHECK(fact.observed);
-      CHECK(std::ranges::any_of(episode.observed_facts, [&](const FactRecord& known) {
+      CHECK(std::ranges::any_of(episode.labels.observed_facts, [&](const FactRecord& known) {
         return known.fact == fact.fact && known.start_step == fact.start_step && known.end_step == fact.end_step &&
                known.first_frame == fact.first_frame && known.end_frame == fact.end_frame;
       }));
@@ -99,8 +99,8 @@ TEST_CASE("plans know what has been seen, assume the rest and plan again: drawer
     std::ptrdiff_t assumptions = 0;
     for (std::size_t at = plan->find("; assumed "); at != std::string::npos; at = plan->find("; assumed ", at + 1))
       ++assumptions;
-    CHECK(std::count_if(episode.segments.begin(), episode.segments.end(), shows) == assumptions);
-    const auto search = std::find_if(episode.segments.begin(), episode.segments.end(), shows);
+    CHECK(std::count_if(episode.labels.segments.begin(), episode.labels.segments.end(), shows) == assumptions);
+    const auto search = std::find_if(episode.labels.segments.begin(), episode.labels.segments.end(), shows);
     CHECK((search->kind == SegmentKind::skill && search->skill == "open"));
     CHECK(search->searched_for.front().starts_with("(inside item chest."));
     CHECK(plan->find("; step 1 searched: (" + skills.front() + " panda.hand)\n") != std::string::npos);
@@ -129,15 +129,15 @@ TEST_CASE("drawers opened in vain are closed where both are in the way of the th
   const auto together = [](const AttemptRecord& attempt) {
     return attempt.segment.detail.find("in the way: chest.middle_drawer, chest.top_drawer") != std::string::npos;
   };
-  CHECK(std::any_of(episode.attempts.begin(), episode.attempts.end(), together));
+  CHECK(std::any_of(episode.labels.attempts.begin(), episode.labels.attempts.end(), together));
   const std::vector<std::string> skills = skills_of(episode);
   CHECK(std::any_of(skills.begin(), skills.end(), [](const std::string& one) { return one.starts_with("close"); }));
-  CHECK(episode.attempts.size() < 20);
+  CHECK(episode.labels.attempts.size() < 20);
 }
 
 TEST_CASE("the catalogue keeps both versions: facts and observed_facts") {
   EpisodeRecord episode = find_item("middle", 12);
-  episode.key = "hidden";
+  episode.made.key = "hidden";
   const auto path = std::filesystem::temp_directory_path() / "stampede_hidden_test.db";
   std::filesystem::remove(path);
   Catalogue catalogue = Catalogue::write(path);

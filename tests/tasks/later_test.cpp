@@ -17,7 +17,7 @@ std::shared_ptr<const Library> later() {
 
 // The way down of the hand that took the item, which lay flat: -1 from straight above.
 double down_at_grasp(const EpisodeRecord& episode) {
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     for (const ParameterRecord& one : segment.parameters)
       if (segment.skill == "pick" && one.name == "grasp")
         return (Quaternion(one.values[6], one.values[3], one.values[4], one.values[5]) * Vector3::UnitZ()).z();

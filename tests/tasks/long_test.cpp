@@ -19,7 +19,7 @@ TEST_CASE("thirty blocks are sorted in at least sixty skills, subgoal by subgoal
   CHECK(skills_of(episode).size() >= 60);
   std::vector<std::string> subgoals;
   std::int64_t end = 0;
-  for (const SegmentRecord& segment : episode.segments) {
+  for (const SegmentRecord& segment : episode.labels.segments) {
     if (segment.kind != SegmentKind::subgoal) continue;
     CHECK(segment.span.first_frame == end);
     end = segment.span.end_frame;
@@ -46,7 +46,7 @@ TEST_CASE("measure: what facts of a scene with thirty objects cost, beside the p
   const std::string variation = first_variation("sort_blocks");
   const EpisodeRecord episode = run_task("sort_blocks", variation, options);
   EpisodeScripts scripts(all_tasks(), "sort_blocks", variation, options.seed);
-  World world(std::make_shared<const Scene>(scene_from_document(episode.scene_document)));
+  World world(std::make_shared<const Scene>(scene_from_document(episode.scene.document)));
   WorldView view(world);
   FactTracker tracker(scripts.symbols(), view);
   tracker.begin(tracker.read_all(view));
@@ -65,8 +65,8 @@ TEST_CASE("measure: what facts of a scene with thirty objects cost, beside the p
     facts += seconds([&] { tracker.frame(view); });
   }
   WARN(verdict(episode) << ": " << skills_of(episode).size() << " skills, " << world.step_count() / 240.0
-                        << " s simulated; wall " << episode.wall_s << " s; physics " << physics << " s, facts " << facts
-                        << " s: " << 100 * facts / physics << " % of it, with "
+                        << " s simulated; wall " << episode.made.wall_s << " s; physics " << physics << " s, facts "
+                        << facts << " s: " << 100 * facts / physics << " % of it, with "
                         << scripts.symbols().domain().predicates.size() << " predicates");
   CHECK(world.step_count() == episode.steps);
 }

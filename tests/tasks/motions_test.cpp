@@ -16,9 +16,9 @@ EpisodeRecord run_authored(const std::string& task, const std::string& variation
 }
 
 int motions_of(const EpisodeRecord& episode, const std::string& kind) {
-  return static_cast<int>(std::count_if(episode.segments.begin(), episode.segments.end(), [&](const auto& segment) {
-    return segment.kind == SegmentKind::motion && segment.skill == kind;
-  }));
+  return static_cast<int>(
+      std::count_if(episode.labels.segments.begin(), episode.labels.segments.end(),
+                    [&](const auto& segment) { return segment.kind == SegmentKind::motion && segment.skill == kind; }));
 }
 
 }  // namespace
@@ -62,9 +62,9 @@ TEST_CASE("a hand lets go on its way, and what it lets go falls where it was let
   REQUIRE(episode.outcome == Outcome::success);
   CHECK(motions_of(episode, "open_hand") == 1);  // before it was picked up
   CHECK(motions_of(episode, "follow") == 1);
-  const auto over =
-      std::find_if(episode.vias.begin(), episode.vias.end(), [](const auto& via) { return via.name == "over"; });
-  REQUIRE(over != episode.vias.end());
+  const auto over = std::find_if(episode.labels.vias.begin(), episode.labels.vias.end(),
+                                 [](const auto& via) { return via.name == "over"; });
+  REQUIRE(over != episode.labels.vias.end());
   CHECK(over->tool_speed > 0.03);  // it did not stop
   CHECK(replay_episode(episode) == "");
 }
@@ -88,15 +88,15 @@ TEST_CASE("a wipe in a skill holds its force at a surface that is not where it w
     const EpisodeRecord episode = run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
     INFO(wrong << " " << verdict(episode));
     REQUIRE(episode.outcome == Outcome::success);
-    const auto follow = std::find_if(episode.segments.begin(), episode.segments.end(), [](const auto& segment) {
-      return segment.kind == SegmentKind::motion && segment.skill == "follow";
-    });
-    REQUIRE(follow != episode.segments.end());
+    const auto follow = std::find_if(
+        episode.labels.segments.begin(), episode.labels.segments.end(),
+        [](const auto& segment) { return segment.kind == SegmentKind::motion && segment.skill == "follow"; });
+    REQUIRE(follow != episode.labels.segments.end());
     CHECK(follow->controller == "cartesian_impedance");
-    const auto press = std::find_if(episode.contacts.begin(), episode.contacts.end(),
+    const auto press = std::find_if(episode.labels.contacts.begin(), episode.labels.contacts.end(),
                                     [](const ContactRecord& contact) { return contact.peak_force > 5; });
-    REQUIRE(press != episode.contacts.end());
-    REQUIRE(episode.vias.size() >= 3);
+    REQUIRE(press != episode.labels.contacts.end());
+    REQUIRE(episode.labels.vias.size() >= 3);
     CHECK(replay_episode(episode) == "");
     const EpisodeRecord again = run_episode(scripts.task(), scripts.symbols(), scripts.skills(), options);
     CHECK(again.state_hash == episode.state_hash);
@@ -110,7 +110,7 @@ TEST_CASE("what is taken off a rod, or hung on one, does not knock against it") 
     const EpisodeRecord episode = run_task(task, first_variation(task), options);
     INFO(task << ": " << verdict(episode));
     CHECK(episode.outcome == Outcome::success);
-    for (const ContactRecord& contact : episode.contacts) {
+    for (const ContactRecord& contact : episode.labels.contacts) {
       INFO(contact.object_a << " and " << contact.object_b);
       if (contact.object_a != "panda" && contact.object_b != "panda") CHECK(contact.peak_force < 10);
     }

@@ -70,7 +70,7 @@ bool names_relation(const FactRecord& one) {
 
 std::vector<Fact> at_the_end(const EpisodeRecord& episode) {
   std::vector<Fact> facts;
-  for (const FactRecord& one : episode.facts)
+  for (const FactRecord& one : episode.labels.facts)
     if (one.open_end && names_relation(one)) facts.push_back(one.fact);
   return facts;
 }
@@ -167,7 +167,7 @@ TEST_CASE("one placing meets all that is asked of the thing") {
 TEST_CASE("relations are facts of those tasks alone that name them, and never of hands") {
   const EpisodeRecord named = run_spatial("red_left_of_blue", "", 1);
   std::set<std::string> predicates;
-  for (const FactRecord& one : named.facts) {
+  for (const FactRecord& one : named.labels.facts) {
     if (!names_relation(one)) continue;
     predicates.insert(one.fact.predicate);
     CHECK(std::ranges::find(one.fact.arguments, "panda.hand") == one.fact.arguments.end());
@@ -176,7 +176,7 @@ TEST_CASE("relations are facts of those tasks alone that name them, and never of
   RunOptions options;
   options.seed = 1;
   const EpisodeRecord other = run_task("pick_and_lift", first_variation("pick_and_lift"), options, spatial());
-  CHECK(std::ranges::none_of(other.facts, names_relation));
+  CHECK(std::ranges::none_of(other.labels.facts, names_relation));
 }
 
 TEST_CASE("the plan's own domain says who makes a relation and who ends it") {

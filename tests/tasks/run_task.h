@@ -39,7 +39,7 @@ inline std::shared_ptr<const Library> unaware() {
 }
 
 // Every `parts`-th of what ships, from number `part` on.
-inline std::vector<std::string> shipped_tasks(int part, int parts) {
+inline std::vector<std::string> shipped_tasks(int part = 0, int parts = 1) {
   std::vector<std::string> names;
   int index = 0;
   for (const ScriptFile* file : shipped()->files(DefinitionKind::task))
@@ -61,7 +61,7 @@ inline std::string first_variation(const std::string& task) {
 // `pick item`: skills that the episode kept, in order.
 inline std::vector<std::string> skills_of(const EpisodeRecord& episode) {
   std::vector<std::string> skills;
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     if (segment.kind == SegmentKind::skill)
       skills.push_back(segment.skill + (segment.arguments.empty() ? "" : " " + segment.arguments[0]));
   return skills;

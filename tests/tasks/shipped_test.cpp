@@ -61,7 +61,7 @@ TEST_CASE("each skill that ships is run by a task that ships") {
   CHECK_FALSE(unused.empty());
   for (const ScriptFile* file : shipped()->files(DefinitionKind::task)) {
     if (unused.empty()) break;
-    for (const SegmentRecord& segment : run_shipped(file->name).segments)
+    for (const SegmentRecord& segment : run_shipped(file->name).labels.segments)
       if (segment.kind == SegmentKind::skill && segment.outcome == Outcome::success) unused.erase(segment.skill);
   }
   std::string names;

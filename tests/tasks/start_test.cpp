@@ -4,6 +4,7 @@
 #include <numbers>
 #include <set>
 
+#include "engine/sim/world.h"
 #include "engine/start/abstract_state.h"
 #include "engine/start/part_questions.h"
 #include "tests/support/make_start.h"

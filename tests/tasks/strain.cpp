@@ -24,7 +24,7 @@ std::string part_name(const Scene& scene, PartRef ref) {
 class Measurement {
  public:
   explicit Measurement(const EpisodeRecord& episode)
-      : episode_(episode), world_(std::make_shared<const Scene>(scene_from_document(episode.scene_document))) {}
+      : episode_(episode), world_(std::make_shared<const Scene>(scene_from_document(episode.scene.document))) {}
 
   Strain run() {
     const std::int64_t per_frame = episode_.physics_hz / episode_.frame_hz;
@@ -47,7 +47,7 @@ class Measurement {
   void find_segments() {
     const std::int64_t step = world_.step_count();
     motion_ = nullptr;
-    for (const SegmentRecord& segment : episode_.segments) {
+    for (const SegmentRecord& segment : episode_.labels.segments) {
       const bool runs = segment.span.start_step <= step && step < segment.span.end_step;
       if (runs && segment.kind == SegmentKind::motion) motion_ = &segment;
       if (runs && segment.kind == SegmentKind::skill) skill_ = &segment;
@@ -70,7 +70,7 @@ class Measurement {
 
   void after_step() {
     const Scene& scene = world_.scene();
-    for (const JointName& joint : episode_.joints) {
+    for (const JointName& joint : episode_.scene.joints) {
       if (!(joint.lower < joint.upper)) continue;
       const double q = world_.joint_position(joint.part);
       const double beyond = std::max(joint.lower - q, q - joint.upper);
@@ -85,7 +85,7 @@ class Measurement {
       saturated = saturated || (most > 0 && std::abs(world_.joint_effort({-1, scene.robot.arm[j]})) > 0.999 * most);
     }
     saturated_steps_ += saturated;
-    for (const SegmentRecord& segment : episode_.segments)
+    for (const SegmentRecord& segment : episode_.labels.segments)
       if (segment.kind == SegmentKind::skill && segment.span.end_step == world_.step_count())
         strain_.end_speed.meet(speed.cwiseAbs().maxCoeff(), "the end of: " + segment.label);
   }

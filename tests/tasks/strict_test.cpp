@@ -25,15 +25,16 @@ EpisodeRecord done(const std::string& task) {
 }
 
 double joint(const EpisodeRecord& episode, std::int64_t frame, const std::string& name) {
-  for (std::size_t i = 0; i < episode.joints.size(); ++i)
-    if (episode.joints[i].name == name) return episode.frames[static_cast<std::size_t>(frame)].joint_position[i];
+  for (std::size_t i = 0; i < episode.scene.joints.size(); ++i)
+    if (episode.scene.joints[i].name == name) return episode.frames[static_cast<std::size_t>(frame)].joint_position[i];
   FAIL("no joint " << name);
   return 0;
 }
 
 Transform pose(const EpisodeRecord& episode, std::int64_t frame, const std::string& name) {
-  for (std::size_t i = 0; i < episode.posed.size(); ++i)
-    if (episode.posed[i] == name) return to_transform(episode.frames[static_cast<std::size_t>(frame)].object_pose[i]);
+  for (std::size_t i = 0; i < episode.scene.posed.size(); ++i)
+    if (episode.scene.posed[i] == name)
+      return to_transform(episode.frames[static_cast<std::size_t>(frame)].object_pose[i]);
   FAIL("no pose of " << name);
   return Transform::Identity();
 }
@@ -41,7 +42,7 @@ Transform pose(const EpisodeRecord& episode, std::int64_t frame, const std::stri
 // The last interval of a fact that holds at the end.
 const FactRecord& last(const EpisodeRecord& episode, const std::string& predicate, const std::string& first) {
   const FactRecord* found = nullptr;
-  for (const FactRecord& record : episode.facts)
+  for (const FactRecord& record : episode.labels.facts)
     if (record.fact.predicate == predicate && record.open_end && record.fact.arguments.front() == first)
       found = &record;
   REQUIRE(found != nullptr);
@@ -68,7 +69,7 @@ TEST_CASE("doors, lids, switches and knobs have moved at least as far as RLBench
   CHECK(gone("turn_oven_on", "turned", "cooker.oven_knob") > 1.5);
   CHECK(gone("turn_tap", "turned", "basin.left_tap") > 1.57);
   const EpisodeRecord flipped = done("press_switch");
-  const auto& names = flipped.joints;
+  const auto& names = flipped.scene.joints;
   const auto rocker = std::ranges::find_if(names, [](const JointName& one) { return one.name == "switch.rocker"; });
   REQUIRE(rocker != names.end());
   CHECK(joint(flipped, std::ssize(flipped.frames) - 1, "switch.rocker") > 1.0 / 1.047 * rocker->upper);
@@ -150,7 +151,7 @@ TEST_CASE("a skill that has just done what it declares has nothing to do when it
     const PreparedStart start = prepare_start(scripts.task(), scripts.symbols(), options);
     Rollout rollout(scripts.symbols(), start, SensorReader(*start.scene, {}, RandomKey("test")), nullptr);
     SkillExecution execution(rollout, scripts.symbols(), scripts.skills(), options);
-    for (const SegmentRecord& segment : episode.segments) {
+    for (const SegmentRecord& segment : episode.labels.segments) {
       if (segment.kind != SegmentKind::skill) continue;
       SkillRequest request;
       request.step = {segment.case_name.empty() ? segment.skill : segment.skill + "_" + segment.case_name,
@@ -176,12 +177,12 @@ TEST_CASE("a pick that counts leaves what stands beside where it stood") {
       RunOptions options;
       options.seed = seed;
       const EpisodeRecord episode = run_task(task, first_variation(task), options);
-      for (const SegmentRecord& segment : episode.segments) {
+      for (const SegmentRecord& segment : episode.labels.segments) {
         if (segment.kind != SegmentKind::skill || segment.skill != "pick" || segment.outcome != Outcome::success)
           continue;
         ++picks;
         const auto frame = [&](std::int64_t step) { return step * episode.frame_hz / episode.physics_hz; };
-        for (const std::string& name : episode.posed) {
+        for (const std::string& name : episode.scene.posed) {
           if (name == segment.arguments.front() || name.starts_with(segment.arguments.front() + ".")) continue;
           const Transform before = pose(episode, frame(segment.span.start_step), name);
           const Transform after = pose(episode, frame(segment.span.end_step), name);

@@ -46,7 +46,7 @@ std::vector<std::string> some_variations(const std::string& task) {
 }
 
 void check_effects(const EpisodeRecord& episode) {
-  for (const SegmentRecord& segment : episode.segments) {
+  for (const SegmentRecord& segment : episode.labels.segments) {
     if (segment.kind != SegmentKind::skill) continue;
     INFO(segment.label);
     CHECK(segment.precondition_held == true);
@@ -92,7 +92,7 @@ TEST_CASE("skills that the six tasks do not need: push and place") {
     REQUIRE(episode.outcome == Outcome::success);
     check_effects(episode);
     const auto used = [&, name = skill](const SegmentRecord& segment) { return segment.skill == name; };
-    CHECK(std::any_of(episode.segments.begin(), episode.segments.end(), used));
+    CHECK(std::any_of(episode.labels.segments.begin(), episode.labels.segments.end(), used));
   }
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("reading only the pairs that can hold gives the same facts as reading 
   const EpisodeRecord episode = run(task, variation, 5);
   REQUIRE(episode.outcome == Outcome::success);
   EpisodeScripts scripts(library(), task, variation, 5);
-  World world(std::make_shared<const Scene>(scene_from_document(episode.scene_document)));
+  World world(std::make_shared<const Scene>(scene_from_document(episode.scene.document)));
   WorldView view(world);
   const FactTracker tracker(scripts.symbols(), view);
   std::size_t next = 0, different = 0;

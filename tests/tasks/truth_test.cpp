@@ -6,6 +6,7 @@
 #include "engine/model/masks.h"
 #include "engine/model/scene_poses.h"
 #include "engine/render/renderer.h"
+#include "engine/sim/world.h"
 #include "engine/start/fact_tracker.h"
 #include "tests/support/make_start.h"
 #include "tests/tasks/run_task.h"
@@ -15,14 +16,13 @@ using namespace stampede::test;
 
 namespace {
 
-constexpr int kParts = 6;                 // the tasks are dealt out to so many cases, which run side by side
 constexpr int kMoments = 5, kAround = 4;  // frames compared, and how many on either side must agree: settle times
 
 // Steps a stored episode through its frames.
 class Film {
  public:
   explicit Film(const EpisodeRecord& episode)
-      : episode_(episode), world_(std::make_shared<const Scene>(scene_from_document(episode.scene_document))) {}
+      : episode_(episode), world_(std::make_shared<const Scene>(scene_from_document(episode.scene.document))) {}
   WorldView& view() { return view_; }
   void to(std::int64_t frame) {
     const std::int64_t per_frame = episode_.physics_hz / episode_.frame_hz;
@@ -44,7 +44,7 @@ class Film {
 };
 
 bool stored(const EpisodeRecord& episode, const Fact& fact, std::int64_t frame) {
-  return std::any_of(episode.facts.begin(), episode.facts.end(), [&](const FactRecord& record) {
+  return std::any_of(episode.labels.facts.begin(), episode.labels.facts.end(), [&](const FactRecord& record) {
     return record.fact == fact && record.first_frame <= frame && frame < record.end_frame;
   });
 }
@@ -75,7 +75,7 @@ const std::set<std::string> kMeasured = {"at", "closed", "hanging", "holding",  
                                          "on", "open",   "over",    "pointing_at", "pressed", "turned"};
 
 void check_stored_margins(const EpisodeRecord& episode) {
-  for (const FactRecord& record : episode.facts) {
+  for (const FactRecord& record : episode.labels.facts) {
     INFO(to_text(record.fact));
     CHECK(record.margin.has_value() == kMeasured.contains(record.fact.predicate));
     if (record.margin) CHECK(*record.margin >= 0);
@@ -87,7 +87,7 @@ bool whole_and_part(const std::string& a, const std::string& b) {
 }
 
 void check_own_parts(const EpisodeRecord& episode) {
-  for (const FactRecord& record : episode.facts) {
+  for (const FactRecord& record : episode.labels.facts) {
     if (record.fact.predicate == "behind" || record.fact.predicate == "part_of")
       continue;  // static: the only kind that may relate them
     for (const std::string& a : record.fact.arguments)
@@ -100,10 +100,10 @@ void check_own_parts(const EpisodeRecord& episode) {
 
 // While something is lifted, the episode's contacts know of nobody but the hand that touches it.
 void check_lifted(const EpisodeRecord& episode) {
-  for (const FactRecord& fact : episode.facts) {
+  for (const FactRecord& fact : episode.labels.facts) {
     if (fact.fact.predicate != "lifted") continue;
     const std::string& held = fact.fact.arguments[0];
-    for (const ContactRecord& contact : episode.contacts) {
+    for (const ContactRecord& contact : episode.labels.contacts) {
       if (contact.object_a != held && contact.object_b != held) continue;
       const std::string& other = contact.object_a == held ? contact.object_b : contact.object_a;
       const std::int64_t together =
@@ -117,8 +117,7 @@ void check_lifted(const EpisodeRecord& episode) {
 }  // namespace
 
 TEST_CASE("what is stored agrees with a fresh look at any frame, in every task that ships") {
-  const int part = GENERATE(range(0, kParts));
-  for (const std::string& task : shipped_tasks(part, kParts)) {
+  for (const std::string& task : shipped_tasks()) {
     RunOptions options;
     options.seed = 61;
     const EpisodeRecord episode = run_task(task, first_variation(task), options);
@@ -189,9 +188,8 @@ std::set<int> seen(Renderer& renderer, Scene scene, const Vector3& at, double ra
 }  // namespace
 
 TEST_CASE("each number of the mask table is drawn, and what has none is in no mask, in every task that ships") {
-  const int part = GENERATE(range(0, kParts));
   const auto renderer = make_renderer();
-  for (const std::string& task : shipped_tasks(part, kParts)) {
+  for (const std::string& task : shipped_tasks()) {
     EpisodeScripts scripts(all_tasks(), task, first_variation(task), 61);
     RunOptions options;
     options.seed = 61;

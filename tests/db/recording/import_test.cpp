@@ -46,9 +46,9 @@ TEST_CASE("a recording becomes frames at a strict rate, with the kinematics of i
   CHECK(e.frames[40].hands[0].opening == Approx(0.02));
   CHECK(e.frames[20].camera_pose[0] == e.frames[0].camera_pose[0]);        // front
   CHECK_FALSE(e.frames[20].camera_pose[1] == e.frames[0].camera_pose[1]);  // wrist
-  CHECK(e.options.at("velocities") == "differences");
-  CHECK(e.options.at("actions") == "measured");
-  CHECK_FALSE(e.keyframes.at("stopped").empty());
+  CHECK(e.made.options.at("velocities") == "differences");
+  CHECK(e.made.options.at("actions") == "measured");
+  CHECK_FALSE(e.labels.keyframes.at("stopped").empty());
 }
 
 TEST_CASE("gaps are NULL, and offsets move streams against each other") {
@@ -128,8 +128,8 @@ TEST_CASE("a recording is stored with the key that it has alone, whichever of it
   const StoredRecording first = store_recording(lab.folder(), panda_stager(), {}, catalogue, kEngine);
   CHECK(first.added);
   CHECK(first.id == 1);
-  CHECK(first.episode.key == lab.import().key);
-  CHECK(catalogue.find(first.episode.key) == 1);
+  CHECK(first.episode.made.key == lab.import().made.key);
+  CHECK(catalogue.find(first.episode.made.key) == 1);
   const StoredRecording again = store_recording(lab.folder(), panda_stager(), {}, catalogue, kEngine);
   CHECK_FALSE(again.added);
   CHECK(again.id == 1);
@@ -137,7 +137,7 @@ TEST_CASE("a recording is stored with the key that it has alone, whichever of it
   const StoredRecording other = store_recording(lab.folder(), panda_stager(), {{}, {}, 1}, catalogue, kEngine);
   CHECK(other.added);
   CHECK(other.id == 2);
-  CHECK(other.episode.key == lab.import().key);
+  CHECK(other.episode.made.key == lab.import().made.key);
   for (const int workers : {1, 3}) {
     Catalogue one = Catalogue::write(lab.folder() / (std::to_string(workers) + ".db"));
     store_recording(lab.folder(), panda_stager(), {{}, {}, workers}, one, kEngine);
@@ -215,10 +215,10 @@ TEST_CASE("an episode that is exported as a recording comes back") {
     CHECK(a.frames[i].hands[0].tip == b.frames[i].hands[0].tip);
   }
   CHECK(b.images->count() == 41);
-  REQUIRE(b.segments.size() == 1);
-  CHECK(b.segments[0].skill == "wave");
-  CHECK(b.segments[0].labelled_by == Labeller::person);
-  CHECK(a.cameras[0].mount_from_camera.isApprox(b.cameras[0].mount_from_camera, 1e-12));
+  REQUIRE(b.labels.segments.size() == 1);
+  CHECK(b.labels.segments[0].skill == "wave");
+  CHECK(b.labels.segments[0].labelled_by == Labeller::person);
+  CHECK(a.scene.cameras[0].mount_from_camera.isApprox(b.scene.cameras[0].mount_from_camera, 1e-12));
 }
 
 TEST_CASE("labels that take no frame are not exported: they could not come back") {
@@ -227,14 +227,14 @@ TEST_CASE("labels that take no frame are not exported: they could not come back"
   const std::int64_t id = *catalogue.add_if_new(lab.import(), kEngine);
   EpisodeRecord e = catalogue.read_episode(id);
   for (const Span& span : {Span{0, 1'950'000, 0, 39}, Span{1'960'000, 2'000'000, 40, 41}}) {
-    SegmentRecord& segment = e.segments.emplace_back();
+    SegmentRecord& segment = e.labels.segments.emplace_back();
     segment.kind = SegmentKind::skill, segment.skill = "wave", segment.span = span;
     segment.labelled_by = Labeller::person;
-    segment.ordinal = static_cast<int>(e.segments.size()) - 1;
+    segment.ordinal = static_cast<int>(e.labels.segments.size()) - 1;
   }
   catalogue.set_labels(id, e);
   export_recording(catalogue, read_stored(catalogue, id), lab.folder() / "again");
-  CHECK(record_of(lab.folder() / "again", panda_stager(), {}).segments.size() == 1);
+  CHECK(record_of(lab.folder() / "again", panda_stager(), {}).labels.segments.size() == 1);
 }
 
 TEST_CASE("cameras that nobody calibrated are exported as such") {
@@ -246,7 +246,7 @@ TEST_CASE("cameras that nobody calibrated are exported as such") {
   export_recording(catalogue, read_stored(catalogue, id), lab.folder() / "again");
   CHECK_FALSE(std::filesystem::exists(lab.folder() / "again/cameras.json"));
   const EpisodeRecord again = record_of(lab.folder() / "again", panda_stager(), {});
-  CHECK(again.options.at("uncalibrated") == "front");
+  CHECK(again.made.options.at("uncalibrated") == "front");
   CHECK(again.images->count() == 10);
 }
 
@@ -271,12 +271,12 @@ TEST_CASE("labels come later too, and take the place of those of the same sort")
   EpisodeRecord e = catalogue.read_episode(id);
   const auto rows = [&](const std::string& of) { return catalogue.query("SELECT * FROM " + of).rows; };
   const auto facts = rows("facts"), sentences = rows("instructions");
-  REQUIRE((!e.segments.empty() && !facts.empty() && !sentences.empty()));
+  REQUIRE((!e.labels.segments.empty() && !facts.empty() && !sentences.empty()));
   for (const std::string skill : {"wave", "wave", "point"}) {
     SegmentRecord segment;
     segment.kind = SegmentKind::skill, segment.skill = skill, segment.span = {0, 1'000'000, 0, 20};
     segment.labelled_by = Labeller::model;
-    e.segments = {segment};
+    e.labels.segments = {segment};
     catalogue.set_labels(id, e);
     CHECK(rows("frames WHERE skill = '" + skill + "'").size() == 20);
     CHECK(rows("frames WHERE skill IS NOT NULL").size() == 20);  // none of those that were there before

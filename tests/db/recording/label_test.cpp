@@ -15,7 +15,7 @@ EpisodeRecord two_seconds() {
   e.real = true;
   e.physics_hz = 1'000'000, e.frame_hz = 20, e.steps = 2'000'000;
   e.frames.resize(41);
-  e.hands = {"panda.hand"};
+  e.scene.hands = {"panda.hand"};
   return e;
 }
 
@@ -83,12 +83,12 @@ TEST_CASE("frames of a recording's own labels are those of its own rate, whateve
     const EpisodeRecord e = lab.import({hz, {}, 1});
     const auto frames = static_cast<std::int64_t>(e.frames.size());
     INFO(hz);
-    REQUIRE(e.segments.size() == 2);
-    CHECK((e.segments[0].span.first_frame == hz / 5 && e.segments[0].span.end_frame == hz));
-    CHECK(e.segments[0].span.start_step == e.physics_hz / 5);
-    CHECK((e.segments[1].span.first_frame == hz && e.segments[1].span.end_frame == frames));
-    CHECK(e.facts.at(0).start_step == e.physics_hz / 2);
-    CHECK(e.facts[0].end_step == e.steps);
+    REQUIRE(e.labels.segments.size() == 2);
+    CHECK((e.labels.segments[0].span.first_frame == hz / 5 && e.labels.segments[0].span.end_frame == hz));
+    CHECK(e.labels.segments[0].span.start_step == e.physics_hz / 5);
+    CHECK((e.labels.segments[1].span.first_frame == hz && e.labels.segments[1].span.end_frame == frames));
+    CHECK(e.labels.facts.at(0).start_step == e.physics_hz / 2);
+    CHECK(e.labels.facts[0].end_step == e.steps);
   }
   lab.replace("labels.json", "\"end_frame\": 41", "\"end_frame\": 42");
   CHECK_THROWS_WITH(lab.import({40, {}, 1}), Contains("there is no frame 42: at 20 frames a second there are 41") &&

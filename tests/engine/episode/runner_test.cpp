@@ -25,14 +25,14 @@ EpisodeRecord stack(std::int64_t seed, OnFailure on_failure = OnFailure::undo) {
 TEST_CASE("a planned episode reaches its goal, and what it declares is what happens") {
   const EpisodeRecord episode = stack(1);
   INFO(to_string(episode.reason) << ": " << episode.detail);
-  for (const AttemptRecord& attempt : episode.attempts)
+  for (const AttemptRecord& attempt : episode.labels.attempts)
     INFO(attempt.segment.skill << " " << to_string(attempt.segment.reason) << " " << attempt.segment.detail);
   REQUIRE(episode.outcome == Outcome::success);
   std::vector<std::string> skills;
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     if (segment.kind == SegmentKind::skill) skills.push_back(segment.skill);
   REQUIRE(skills == std::vector<std::string>{"pick", "place"});
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     if (segment.kind == SegmentKind::skill) {
       CHECK(segment.precondition_held == true);
       CHECK(segment.effect_held == true);
@@ -45,7 +45,7 @@ TEST_CASE("a planned episode reaches its goal, and what it declares is what happ
 TEST_CASE("subgoals and motions tile the frames, skills those before the arm stands still for the verdict") {
   const EpisodeRecord episode = stack(2);
   REQUIRE(episode.outcome == Outcome::success);
-  const SegmentRecord& hold = episode.segments.back();
+  const SegmentRecord& hold = episode.labels.segments.back();
   REQUIRE(hold.skill == "hold");
   CHECK(hold.kind == SegmentKind::motion);
   CHECK(hold.parent == 0);  // of the subgoal: it belongs to no skill
@@ -75,7 +75,7 @@ TEST_CASE("facts agree with segments: on(cube1, table) ends in pick, on(cube1, c
   const EpisodeRecord episode = stack(6);
   REQUIRE(episode.outcome == Outcome::success);
   const auto find = [&](const Fact& fact) {
-    for (const FactRecord& record : episode.facts)
+    for (const FactRecord& record : episode.labels.facts)
       if (record.fact == fact) return record;
     FAIL(to_text(fact));
     return FactRecord{};
@@ -83,7 +83,7 @@ TEST_CASE("facts agree with segments: on(cube1, table) ends in pick, on(cube1, c
   const FactRecord before = find({"on", {"cube1", "table"}}), after = find({"on", {"cube1", "cube2"}});
   CHECK(before.open_start);
   CHECK(after.open_end);
-  for (const SegmentRecord& segment : episode.segments) {
+  for (const SegmentRecord& segment : episode.labels.segments) {
     if (segment.skill == "pick" && segment.kind == SegmentKind::skill) {
       CHECK(before.end_step > segment.span.start_step);
       CHECK(before.end_step <= segment.span.end_step);
@@ -98,12 +98,12 @@ TEST_CASE("facts agree with segments: on(cube1, table) ends in pick, on(cube1, c
 TEST_CASE("the stop-based keyframe rule misses the approach that pick passes at speed, its via-point is recorded") {
   const EpisodeRecord episode = stack(1);
   REQUIRE(episode.outcome == Outcome::success);
-  REQUIRE_FALSE(episode.vias.empty());
-  const ViaRecord& approach = episode.vias.front();
+  REQUIRE_FALSE(episode.labels.vias.empty());
+  const ViaRecord& approach = episode.labels.vias.front();
   CHECK(approach.name == "approach");
   CHECK(approach.speed > 0.1);  // rad/s: the rule's threshold for standing still
   const std::int64_t frame = approach.step / 12;
-  const auto& keyframes = episode.keyframes.at("stopped");
+  const auto& keyframes = episode.labels.keyframes.at("stopped");
   for (const std::int64_t keyframe : keyframes) CHECK(std::abs(keyframe - frame) > 2);
   CHECK(keyframes.back() == static_cast<std::int64_t>(episode.frames.size()) - 1);
 }
@@ -125,13 +125,13 @@ TEST_CASE("without undo a failure is the episode, and says why") {
   const EpisodeRecord episode = run_episode(task, symbols, skills, options);
   CHECK(episode.outcome == Outcome::failure);
   CHECK(episode.reason == Reason::effect_mismatch);
-  CHECK(episode.attempts.empty());
+  CHECK(episode.labels.attempts.empty());
   options.on_failure = OnFailure::undo;
   options.tries_per_skill = 2;
   options.tries_per_episode = 5;
   const EpisodeRecord undone = run_episode(task, symbols, skills, options);
   CHECK(undone.outcome == Outcome::failure);
-  CHECK(undone.attempts.size() >= 4);  // each undone try is a row
+  CHECK(undone.labels.attempts.size() >= 4);  // each undone try is a row
   CHECK(replay_episode(undone) == "");
 }
 
@@ -151,5 +151,5 @@ TEST_CASE("an error in a skill's script ends the episode at once: it would come 
   options.on_failure = OnFailure::undo;
   const EpisodeRecord episode = run_episode(task, symbols, skills, options);
   CHECK(episode.reason == Reason::script_error);
-  CHECK(episode.attempts.empty());
+  CHECK(episode.labels.attempts.empty());
 }

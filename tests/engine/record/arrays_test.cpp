@@ -86,7 +86,7 @@ TEST_CASE("the README describes every column that an episode has") {
     std::string name = column.name;
     if (const std::size_t slash = name.find('/'); slash != std::string::npos && !name.starts_with("action/"))
       name = name.substr(0, slash) + "/NAME";
-    for (const Camera& camera : stacked().cameras)
+    for (const Camera& camera : stacked().scene.cameras)
       if (name.starts_with(camera.name + "_")) name = "CAMERA" + name.substr(camera.name.size());
     INFO(name);
     CHECK(readme.find("`" + name + "`") != std::string::npos);
@@ -233,7 +233,7 @@ TEST_CASE("only what is asked for is made, and what is not there is told with wh
   const EpisodeArrays some = episode_arrays(stacked(), {{"joint_positions", "object_pose"}});
   for (const ArrayColumn& column : some.columns)
     CHECK((column.name == "joint_positions" || column.name.starts_with("object_pose/")));
-  CHECK(some.columns.size() == 1 + stacked().posed.size());
+  CHECK(some.columns.size() == 1 + stacked().scene.posed.size());
   CHECK_THROWS_WITH(episode_arrays(stacked(), {{"joint_position"}}), Catch::Contains("did you mean 'joint_positions'"));
   CHECK_THROWS_WITH(some.column("gripper_pose"), Catch::Contains("no such column"));
   CHECK_THROWS_WITH(some.columns.front().integers(), Catch::Contains("float64"));

@@ -52,7 +52,7 @@ std::vector<std::uint8_t> bytes_of(const EpisodeRecord& episode, std::int64_t fr
   for (std::size_t i = 0; i < episode.images->count(); ++i) {
     const ImageRecord& image = episode.images->record(i);
     if (image.frame == frame && image.kind == kind &&
-        episode.cameras[static_cast<std::size_t>(image.camera)].name == camera)
+        episode.scene.cameras[static_cast<std::size_t>(image.camera)].name == camera)
       return episode.images->read(i);
   }
   return {};
@@ -70,7 +70,7 @@ TEST_CASE("what was chosen survives as text, and the first choice goes before th
   other.kinds = PictureKinds{false, true, false, true};
   other.points = true;
   EpisodeRecord episode;
-  episode.options = before(first, other).as_text();
+  episode.made.options = before(first, other).as_text();
   const Observation observation = chosen(observation_of(episode));
   CHECK(observation.width == 64);
   CHECK(observation.height == 48);
@@ -110,7 +110,7 @@ TEST_CASE("every frame has a picture of each camera and wanted kind") {
 TEST_CASE("the moving block moves in the masks, and in the colours too") {
   const EpisodeRecord& episode = seen();
   int number = 0;
-  for (const MaskEntry& entry : episode.masks)
+  for (const MaskEntry& entry : episode.scene.masks)
     if (entry.object == "cube1") number = entry.instance;
   REQUIRE(number > 0);
   const auto last = static_cast<std::int64_t>(episode.frames.size()) - 1;
@@ -133,7 +133,7 @@ TEST_CASE("pictures made later are the same bytes, one camera alone is the same 
   ObservationChoice alone = observation_of(episode);
   alone.cameras = {"wrist"};
   const Observation observation = chosen(alone);
-  EpisodePainter painter(*renderer, episode, std::make_shared<const Scene>(scene_from_document(episode.scene_document)),
+  EpisodePainter painter(*renderer, episode, std::make_shared<const Scene>(scene_from_document(episode.scene.document)),
                          observation);
   ImageStore later;
   const auto last = static_cast<std::int64_t>(episode.frames.size()) - 1;
@@ -153,18 +153,18 @@ TEST_CASE("keyframe pictures are some of all pictures, and the first, the last a
     const ImageRecord& image = few.images->record(i);
     frames.push_back(image.frame);
     CHECK(few.images->read(i) ==
-          bytes_of(all, image.frame, few.cameras[static_cast<std::size_t>(image.camera)].name, image.kind));
+          bytes_of(all, image.frame, few.scene.cameras[static_cast<std::size_t>(image.camera)].name, image.kind));
   }
   const auto has = [&](std::int64_t frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
   CHECK(has(0));
   CHECK(has(static_cast<std::int64_t>(all.frames.size()) - 1));
-  for (const SegmentRecord& segment : all.segments)
+  for (const SegmentRecord& segment : all.labels.segments)
     if (segment.kind == SegmentKind::skill) CHECK(has(segment.span.first_frame));
 }
 
 TEST_CASE("where things are by kinematics is where physics had them") {
   const EpisodeRecord& episode = seen();
-  const Scene scene = scene_from_document(episode.scene_document);
+  const Scene scene = scene_from_document(episode.scene.document);
   for (const std::size_t frame : {std::size_t{0}, episode.frames.size() / 2, episode.frames.size() - 1}) {
     const ScenePoses poses = scene_poses(scene, state_at(scene, episode, static_cast<std::int64_t>(frame)));
     const FrameRecord& recorded = episode.frames[frame];
@@ -172,8 +172,8 @@ TEST_CASE("where things are by kinematics is where physics had them") {
       const Transform here = world_from_camera(scene, poses, scene.cameras[i]);
       CHECK((here.matrix() - to_transform(recorded.camera_pose[i]).matrix()).cwiseAbs().maxCoeff() < 1e-9);
     }
-    for (std::size_t i = 0; i < episode.posed.size(); ++i) {
-      const int body = scene.body_index(episode.posed[i]);
+    for (std::size_t i = 0; i < episode.scene.posed.size(); ++i) {
+      const int body = scene.body_index(episode.scene.posed[i]);
       if (body < 0) continue;
       const Transform here = poses.world_from_part[static_cast<std::size_t>(body)][0];
       CHECK((here.matrix() - to_transform(recorded.object_pose[i]).matrix()).cwiseAbs().maxCoeff() < 1e-9);

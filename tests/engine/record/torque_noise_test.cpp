@@ -43,7 +43,7 @@ TEST_CASE("an episode's options keep the torque noise") {
   ObservationChoice choice;
   choice.torque_model = two_joints();
   EpisodeRecord episode;
-  episode.options = choice.as_text();
+  episode.made.options = choice.as_text();
   CHECK(to_text(*observation_of(episode).torque_model) == to_text(two_joints()));
   CHECK(chosen(choice).torque_model.joints.size() == 2);
 }

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/start/planning.h"
+#include "engine/symbolic/task_planner.h"
 #include "tests/support/make_start.h"
 #include "tests/support/plain_task.h"
 
@@ -60,7 +61,7 @@ EpisodeRecord run_niche(OnFailure on_failure) {
 
 std::vector<std::string> done(const EpisodeRecord& episode) {
   std::vector<std::string> steps;
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     if (segment.kind == SegmentKind::skill && segment.outcome == Outcome::success)
       steps.push_back(segment.skill + " " + segment.arguments[0]);
   return steps;
@@ -73,8 +74,8 @@ TEST_CASE("undo: the plan that failed is kept with its reason, and what was in t
   INFO(to_string(episode.reason) << " " << episode.detail);
   REQUIRE(episode.outcome == Outcome::success);
   CHECK(done(episode) == std::vector<std::string>{"pick cube2", "place cube2", "pick cube1"});
-  REQUIRE_FALSE(episode.attempts.empty());
-  const SegmentRecord& first = episode.attempts.front().segment;
+  REQUIRE_FALSE(episode.labels.attempts.empty());
+  const SegmentRecord& first = episode.labels.attempts.front().segment;
   CHECK(first.arguments[0] == "cube1");
   CHECK(first.reason == Reason::no_grasp);
   CHECK(first.detail.find("in the way: cube2") != std::string::npos);
@@ -88,7 +89,7 @@ TEST_CASE("what is in the way of what is in the way is moved before both") {
   options.seed = 1;
   const EpisodeRecord episode = run_episode(task, symbols, skills, options);
   std::string tries;
-  for (const AttemptRecord& attempt : episode.attempts)
+  for (const AttemptRecord& attempt : episode.labels.attempts)
     if (attempt.segment.kind == SegmentKind::skill)
       tries += attempt.segment.skill + " " + attempt.segment.arguments[0] + ": " + attempt.segment.detail + "\n";
   INFO(to_string(episode.reason) << " " << episode.detail << "\n" << tries);
@@ -101,9 +102,9 @@ TEST_CASE("recover: the failed try stays, and the blocker is moved afterwards") 
   const EpisodeRecord episode = run_niche(OnFailure::recover);
   REQUIRE(episode.outcome == Outcome::success);
   CHECK(done(episode) == std::vector<std::string>{"pick cube2", "place cube2", "pick cube1"});
-  CHECK(episode.attempts.empty());
+  CHECK(episode.labels.attempts.empty());
   int failed = 0;
-  for (const SegmentRecord& segment : episode.segments)
+  for (const SegmentRecord& segment : episode.labels.segments)
     failed += segment.kind == SegmentKind::skill && segment.reason == Reason::no_grasp;
   CHECK(failed == 1);
 }

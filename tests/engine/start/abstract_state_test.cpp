@@ -38,13 +38,13 @@ const Fact kLies{"on", {"cube2", "table"}};  // from the beginning to the end
 TEST_CASE("what nobody could see is a fact, and known from the moment it was seen") {
   const EpisodeRecord& episode = dark();
   REQUIRE(episode.outcome == Outcome::success);
-  for (const FactRecord& record : episode.facts) {
+  for (const FactRecord& record : episode.labels.facts) {
     if (record.fact == kLies) CHECK_FALSE(record.observed);
     if (record.fact == kLies) CHECK(record.open_start);
     if (record.fact.predicate == "holding") CHECK(record.observed);
   }
   int seen = 0;
-  for (const FactRecord& record : episode.observed_facts) {
+  for (const FactRecord& record : episode.labels.observed_facts) {
     CHECK(record.fact.predicate == "on");
     if (record.fact != kLies) continue;
     ++seen;
@@ -65,7 +65,7 @@ TEST_CASE("the state in symbols at a frame: facts, what is known of them, and nu
   CHECK(before.joint_fractions.at("panda.joint4") > 0);
   CHECK(before.joint_fractions.at("panda.joint4") < 1);
   CHECK(before.poses.at("cube2").position[2] == Approx(0.02).margin(1e-3));
-  const Scene scene = scene_from_document(episode.scene_document);
+  const Scene scene = scene_from_document(episode.scene.document);
   const std::string text = describe(before, DarkSymbols().domain(), scene);
   CHECK(text.find("is on the table (not known)\n") != std::string::npos);
   CHECK(text.find("the hand is empty\n") != std::string::npos);

@@ -169,12 +169,13 @@ TEST_CASE("any goal over the predicates makes a task: planned, executed and said
   INFO(episode.detail);
   REQUIRE(episode.outcome == Outcome::success);
   bool on_cube2 = false;
-  for (const FactRecord& fact : episode.facts) on_cube2 |= fact.open_end && fact.fact == Fact{"on", {"cube3", "cube2"}};
+  for (const FactRecord& fact : episode.labels.facts)
+    on_cube2 |= fact.open_end && fact.fact == Fact{"on", {"cube3", "cube2"}};
   CHECK(on_cube2);
   options.goal = formula("(and (on cube3 cube2) (hand_empty))");
   const EpisodeRecord other = run_episode(task, symbols, skills, options);
   REQUIRE(other.outcome == Outcome::success);
-  CHECK(other.language.front().text.starts_with("make sure that the"));
+  CHECK(other.labels.language.front().text.starts_with("make sure that the"));
 }
 
 TEST_CASE("random behaviour draws applicable skills, keeps what fails, and repeats") {
@@ -189,18 +190,18 @@ TEST_CASE("random behaviour draws applicable skills, keeps what fails, and repea
   const EpisodeRecord a = run_episode(task, symbols, skills, options), b = run_episode(task, symbols, skills, options);
   CHECK(a.state_hash == b.state_hash);
   int drawn = 0;
-  for (const SegmentRecord& segment : a.segments)
+  for (const SegmentRecord& segment : a.labels.segments)
     if (segment.kind == SegmentKind::skill) {
       ++drawn;
       CHECK(segment.precondition_held == true);
     }
   CHECK(drawn == 6);
-  CHECK(a.attempts.empty());
+  CHECK(a.labels.attempts.empty());
   CHECK(replay_episode(a).empty());
   options.behaviour = Behaviour::random_skills;
   const EpisodeRecord c = run_episode(task, symbols, skills, options);
   int refused = 0;
-  for (const SegmentRecord& segment : c.segments) refused += segment.precondition_held == false;
+  for (const SegmentRecord& segment : c.labels.segments) refused += segment.precondition_held == false;
   CHECK(refused > 0);  // tried all the same
   CHECK(replay_episode(c).empty());
 }

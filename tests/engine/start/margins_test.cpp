@@ -105,7 +105,7 @@ TEST_CASE("margins are recorded for every frame where they are asked for by name
   CHECK(channel.components.size() == 9);  // of three cubes on each other or the table
   // Facts are debounced, so a change is told apart from its surroundings by two frames.
   const auto on = [&](const std::string& atom, std::int64_t frame) {
-    return std::any_of(with.facts.begin(), with.facts.end(), [&](const FactRecord& fact) {
+    return std::any_of(with.labels.facts.begin(), with.labels.facts.end(), [&](const FactRecord& fact) {
       return to_text(fact.fact) == atom && fact.first_frame <= frame && frame < fact.end_frame;
     });
   };
@@ -120,7 +120,7 @@ TEST_CASE("margins are recorded for every frame where they are asked for by name
     }
   CHECK(compared > 8 * static_cast<std::int64_t>(with.frames.size()));
   // What a fact's interval says is the greatest of its frames.
-  for (const FactRecord& fact : with.facts) {
+  for (const FactRecord& fact : with.labels.facts) {
     if (fact.fact.predicate != "on") continue;
     double most = 0;
     for (std::int64_t frame = fact.first_frame; frame < fact.end_frame; ++frame)

@@ -5,6 +5,7 @@
 #include "engine/start/impasse.h"
 #include "engine/start/part_questions.h"
 #include "engine/start/start.h"
+#include "tests/support/make_start.h"
 #include "tests/support/plain_task.h"
 
 using namespace stampede;
@@ -189,6 +190,32 @@ TEST_CASE("what stands in the way in some draws only is asked for in the others,
   CHECK(start.draws == kFree + 1);
 }
 
+TEST_CASE("a start is given up after ten draws with the same collision, not after a few that are alike by chance") {
+  const auto free_from = [](int draws) -> TaskDraw {
+    return [draws](int draw) {
+      Task task = stack_task(2);
+      Body& table = task.scene.bodies[static_cast<std::size_t>(task.scene.body_index("table"))];
+      const Body& cube = task.scene.bodies[static_cast<std::size_t>(task.scene.body_index("cube1"))];
+      Shape block = table.parts[0].shapes[0];
+      block.size = {0.04, 0.04, 0.04};
+      block.part_from_shape = table.world_from_body.inverse() * cube.world_from_body;
+      if (draw < draws) table.parts[0].shapes.push_back(block);
+      task.unplaced.clear();
+      return task;
+    };
+  };
+  Conditions symbols;
+  const Start late = start_of(free_from(6), symbols, 1);
+  INFO(late.detail);
+  CHECK(late.reason == Reason::none);
+  CHECK(late.draws == 7);
+  const Start never = start_of(free_from(1000), symbols, 1);
+  INFO(never.detail);
+  CHECK(never.reason == Reason::init_impossible);
+  CHECK(never.draws == 10);
+  CHECK(tells(never, "cube1"));
+}
+
 TEST_CASE("of what has a margin it is told how much is missing, of what nothing makes that nothing does") {
   Conditions symbols;
   const Start far = start_of(with({is("far", {"cube1", "cube2"}),
@@ -210,7 +237,7 @@ TEST_CASE("who asks why is shown each grasp of a start that cannot be, in the sc
   std::vector<Impasse> told;
   RunOptions options;
   options.draws = 3;
-  options.witness = [&](const Impasse& impasse) { told.push_back(impasse); };
+  options.services.witness = [&](const Impasse& impasse) { told.push_back(impasse); };
   make_start(with({is("reach", {"cube1"})}, 2, 0.6), symbols, options);
   REQUIRE(told.size() == 1);
   CHECK(told[0].step == "init (reach cube1)");

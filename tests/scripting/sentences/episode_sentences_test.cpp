@@ -39,7 +39,7 @@ const EpisodeRecord& episode() {
 
 TEST_CASE("an episode has the sentences of its variation and of its skills, as a model's") {
   std::vector<std::string> texts;
-  for (const LanguageRecord& one : episode().language) {
+  for (const LanguageRecord& one : episode().labels.language) {
     if (one.source != LanguageSource::model) continue;
     CHECK(one.model == "small");
     texts.push_back(one.text);
@@ -52,7 +52,7 @@ TEST_CASE("an episode has the sentences of its variation and of its skills, as a
 
 TEST_CASE("sentences are part of the key, and only those of the variation") {
   const auto key = [](const RunOptions& options) { return PreparedEpisode(shipped::library(), kJob, options).key(); };
-  CHECK(key(with_sentences(kMade)) == episode().key);
+  CHECK(key(with_sentences(kMade)) == episode().made.key);
   CHECK(key(with_sentences(kMade)) != key({}));
   std::vector<MadeSentence> others = kMade;
   others[1].text = "press the white button";
@@ -62,17 +62,18 @@ TEST_CASE("sentences are part of the key, and only those of the variation") {
 }
 
 TEST_CASE("what a skill is said to have changed came true or ended while it ran") {
-  const Scene scene = scene_from_document(episode().scene_document);
+  const Scene scene = scene_from_document(episode().scene.document);
   const Domain& domain = shipped::library()->domain_of(kJob.task);
   int asked = 0;
   for (std::int64_t frame = 0; frame < static_cast<std::int64_t>(episode().frames.size()); frame += 10)
     for (const FrameQuestion& one : questions_about(episode(), domain, scene, frame)) {
       if (one.type != "changed") continue;
       ++asked;
-      const SegmentRecord& segment = episode().segments.at(std::stoul(one.proof.substr(one.proof.find(' ') + 1)));
+      const SegmentRecord& segment =
+          episode().labels.segments.at(std::stoul(one.proof.substr(one.proof.find(' ') + 1)));
       CHECK(segment.span.end_frame <= frame);
       std::set<std::string> changes;
-      for (const FactRecord& fact : episode().facts)
+      for (const FactRecord& fact : episode().labels.facts)
         for (const bool ends : {false, true}) {
           const std::int64_t at = ends ? fact.end_frame : fact.first_frame;
           if (at <= segment.span.first_frame || at > segment.span.end_frame) continue;
@@ -93,7 +94,7 @@ TEST_CASE("what is said to be left of another is so in the picture") {
   const EpisodeJob job{"stack_blocks", shipped::library()->task("stack_blocks")->variation_texts.front(), 3};
   PreparedEpisode prepared(shipped::library(), job, {});
   const EpisodeRecord record = prepared.run(nullptr);
-  const Scene scene = scene_from_document(record.scene_document);
+  const Scene scene = scene_from_document(record.scene.document);
   const std::int64_t frame = 5;
   int yes = 0, no = 0;
   for (const FrameQuestion& one : questions_about(record, shipped::library()->domain_of(job.task), scene, frame)) {
@@ -102,8 +103,9 @@ TEST_CASE("what is said to be left of another is so in the picture") {
                                      [&](const Camera& each) { return each.name == one.camera; });
     REQUIRE(camera != scene.cameras.end());
     const auto column = [&](const std::string& slot) {
-      for (std::size_t i = 0; i < record.posed.size(); ++i)
-        if (scene.object(record.posed[i]) != nullptr && phrase(scene, record.posed[i]) == one.slots.at(slot)) {
+      for (std::size_t i = 0; i < record.scene.posed.size(); ++i)
+        if (scene.object(record.scene.posed[i]) != nullptr &&
+            phrase(scene, record.scene.posed[i]) == one.slots.at(slot)) {
           const Pose& pose = record.frames[frame].object_pose[i];
           const Vector3 seen = camera->mount_from_camera.inverse() * to_transform(pose).translation();
           return camera->centre_x + camera->focal_x * seen.x() / seen.z();
@@ -126,11 +128,11 @@ TEST_CASE("what does not stand apart at a frame is not asked about, and names ar
   PreparedEpisode prepared(shipped::library(), {"stack_blocks", four, 3}, {});
   const EpisodeRecord record = prepared.run(nullptr);
   REQUIRE(record.outcome == Outcome::success);
-  const Scene scene = scene_from_document(record.scene_document);
+  const Scene scene = scene_from_document(record.scene.document);
   const Domain& domain = shipped::library()->domain_of("stack_blocks");
   const auto last = static_cast<std::int64_t>(record.frames.size()) - 1;
   std::set<std::string> built;  // in one tower at the end
-  for (const FactRecord& fact : record.facts)
+  for (const FactRecord& fact : record.labels.facts)
     if (fact.fact.predicate == "on" && fact.open_end && fact.fact.arguments[1] != "table")
       built.insert(fact.fact.arguments.begin(), fact.fact.arguments.end());
   CHECK(built.size() == 4);
@@ -146,13 +148,13 @@ TEST_CASE("what does not stand apart at a frame is not asked about, and names ar
 }
 
 TEST_CASE("answers about frames are true, and yes as often as no") {
-  const Scene scene = scene_from_document(episode().scene_document);
+  const Scene scene = scene_from_document(episode().scene.document);
   const Domain& domain = shipped::library()->domain_of(kJob.task);
   int yes = 0, no = 0;
   std::set<std::string> types;
   for (std::int64_t frame = 0; frame < static_cast<std::int64_t>(episode().frames.size()); frame += 20) {
     std::set<std::string> holds;
-    for (const FactRecord& fact : episode().facts)
+    for (const FactRecord& fact : episode().labels.facts)
       if (fact.first_frame <= frame && frame < fact.end_frame) holds.insert(to_text(fact.fact));
     for (const FrameQuestion& one : questions_about(episode(), domain, scene, frame)) {
       types.insert(one.type);
