@@ -100,7 +100,7 @@ double CsvFile::number(std::size_t column) const {
   const std::string_view text = row_[column];
   if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
   double value = 0;
-  const char* const first = text.data() + (text[0] == '+' ? 1 : 0);
+  const char* const first = text.data() + (text[0] == '+' && !text.starts_with("+-") ? 1 : 0);
   const auto [stop, error] = std::from_chars(first, text.data() + text.size(), value);
   if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(value))
     throw Error(place(), "column " + header_[column] + " holds '" + std::string(text) + "', no finite number",

@@ -198,7 +198,7 @@ std::vector<Error> sentence_mistakes(const std::shared_ptr<const Library>& libra
 ExitCode do_check(const Arguments& arguments, Console& console) {
   std::vector<Error> all;
   const std::vector<std::string>& names = arguments.list("NAMES");
-  auto library = Library::load(roots_of(arguments), all, names);
+  auto library = Library::check(roots_of(arguments), all, names);
   check_names(*library, names, all);
   std::vector<Error> shared;  // mistakes in what all files share
   try {

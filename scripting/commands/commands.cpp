@@ -52,7 +52,7 @@ int workers_of(const Arguments& arguments) {
 std::shared_ptr<const Library> words_of(const Arguments& arguments) { return Library::load_words(roots_of(arguments)); }
 
 std::shared_ptr<const Library> load_library(const Arguments& arguments, const std::vector<std::string>& tasks) {
-  return Library::load_usable(roots_of(arguments), tasks);
+  return Library::load(roots_of(arguments), tasks);
 }
 
 void tell_left_out(const Library& library, const std::vector<const ScriptFile*>& told, Console& console) {

@@ -47,7 +47,7 @@ std::vector<PhysicalRun> run_in_physics(const std::vector<HeldOutEpisode>& episo
                                         const TrueWordsPlanner& planner) {
   std::vector<std::string> tasks;
   for (const HeldOutEpisode& one : episodes) tasks.push_back(one.task);
-  const std::shared_ptr<const Library> library = Library::load_usable(roots, tasks);
+  const std::shared_ptr<const Library> library = Library::load(roots, tasks);
   for (const std::string& task : tasks) task_info(*library, task);
   std::vector<PhysicalRun> runs;
   in_order(

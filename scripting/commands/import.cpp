@@ -100,7 +100,7 @@ std::string checker_says(const Arguments& arguments, const std::string& task, co
   roots.folders.push_back(scratch.path());
   for (const NewFile& file : files) write_text_file(scratch.path() / file.inside, file.text);
   std::vector<Error> mistakes;
-  Library::load(roots, mistakes, {task});
+  Library::check(roots, mistakes, {task});
   for (const Error& mistake : mistakes)
     for (const NewFile& file : files) {
       if (!mistake.where().starts_with(file.inside.generic_string())) continue;

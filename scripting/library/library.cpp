@@ -23,15 +23,8 @@ bool is_about(const Error& error, const ScriptFile& file) {
 
 LibraryError::LibraryError(std::vector<Error> errors) : Error({}, all_texts(errors)), errors_(std::move(errors)) {}
 
-std::shared_ptr<const Library> Library::load(const Roots& roots) {
-  std::vector<Error> complaints;
-  std::shared_ptr<const Library> library = build_library(roots, complaints, {});
-  if (!complaints.empty()) throw LibraryError(std::move(complaints));
-  return library;
-}
-
-std::shared_ptr<const Library> Library::load(const Roots& roots, std::vector<Error>& complaints,
-                                             const std::vector<std::string>& tasks) {
+std::shared_ptr<const Library> Library::check(const Roots& roots, std::vector<Error>& complaints,
+                                              const std::vector<std::string>& tasks) {
   return build_library(roots, complaints,
                        {.thorough = tasks.empty() ? Thorough::all : Thorough::named, .named = tasks});
 }
@@ -52,7 +45,7 @@ bool is_shared(const ScriptFile& file) {
 
 // Reads again without what has mistakes, until what is left has none but in tasks: each round finds who needed what the
 // rounds before left out.
-std::shared_ptr<const Library> Library::load_usable(const Roots& roots, const std::vector<std::string>& tasks) {
+std::shared_ptr<const Library> Library::load(const Roots& roots, const std::vector<std::string>& tasks) {
   std::vector<ScriptFile> left_out;
   std::vector<std::vector<Error>> rounds;
   for (;;) {

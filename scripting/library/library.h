@@ -56,19 +56,15 @@ struct Roots {
 // Immutable after load and shared by all workers.
 class Library {
  public:
-  // Throws LibraryError with all complaints. Of each task's variations a few are tried; a run says what is wrong with
-  // those that it meets.
-  static std::shared_ptr<const Library> load(const Roots& roots);
-  // As load, but complaints are returned and the sound files kept, and up to 240 variations are tried (for `stampede
-  // check`) of each task, or of these alone.
-  static std::shared_ptr<const Library> load(const Roots& roots, std::vector<Error>& complaints,
-                                             const std::vector<std::string>& tasks = {});
-
-  // As load, but files with mistakes are left out, and what is said of them is only thrown at those who use them: see
-  // require_sound. What every task shares must be right: types, colours and words. Of tasks only those named are read,
-  // where some are: all others are as unknown as their mistakes.
-  static std::shared_ptr<const Library> load_usable(const Roots& roots, const std::vector<std::string>& tasks = {});
-  // As load, but whatever mistakes there are: for those who ask for words of what can be read.
+  // Files with mistakes are left out, and what is said of them is only thrown at those who use them: see require_sound.
+  // What every task shares must be right: types, colours and words, or LibraryError says all that is wrong there. Of
+  // tasks only those named are read, where some are: all others are as unknown as their mistakes. Of each task's
+  // variations a few are tried; a run says what is wrong with those that it meets.
+  static std::shared_ptr<const Library> load(const Roots& roots, const std::vector<std::string>& tasks = {});
+  // All complaints, and what can be read; of each task, or of these alone, up to 240 variations are tried.
+  static std::shared_ptr<const Library> check(const Roots& roots, std::vector<Error>& complaints,
+                                              const std::vector<std::string>& tasks = {});
+  // What can be read, whatever mistakes there are: for those who ask for words of it.
   static std::shared_ptr<const Library> load_words(const Roots& roots);
   // Throws LibraryError with the complaints about these files and what they use, if there are any.
   void require_sound(const std::vector<const ScriptFile*>& files) const;

@@ -129,8 +129,7 @@ TaskPlan told(const PlanOutcome& outcome) {
 
 SessionCore::SessionCore(const std::filesystem::path& root, const std::vector<std::filesystem::path>& paths,
                          std::filesystem::path catalogue)
-    : library_(in_own_words([&] { return Library::load_usable(make_roots(root, paths)); })),
-      path_(std::move(catalogue)) {
+    : library_(in_own_words([&] { return Library::load(make_roots(root, paths)); })), path_(std::move(catalogue)) {
   if (path_ == ":memory:")
     throw Error("SessionOptions::catalogue", "a catalogue is a file",
                 "leave it empty: what `run` gives then holds the whole episode");

@@ -3,6 +3,7 @@
 #include <set>
 #include <thread>
 
+#include "db/sqlite.h"
 #include "db/table_text.h"
 #include "sample_episode.h"
 
@@ -232,7 +233,21 @@ TEST_CASE("SQL knows median, percentile, standard deviation and regular expressi
     INFO(wrong);
     CHECK_THROWS_AS(filled.catalogue.query(wrong), Error);
   }
-  CHECK_THROWS_WITH(filled.catalogue.query("SELECT 'a' REGEXP '('"), Contains("regexp: ("));
+  CHECK_THROWS_WITH(filled.catalogue.query("SELECT 'a' REGEXP '('"),
+                    Contains("regexp: (: ") && !Contains(std::string(1, '\0')));
+}
+
+TEST_CASE("text of a file is shown cut between letters, and without what a terminal would obey") {
+  CHECK(sql::shown("plain") == "plain");
+  CHECK(sql::shown("a\nb\x1b[2J\x7f"
+                   "c\xc2\x9b"
+                   "d\xc3\xa9") == "a b [2J c\x20\x64\xc3\xa9");
+  const std::string cut = " \xe2\x80\xa6";
+  CHECK(sql::shown(std::string(200, 'a')) == std::string(200, 'a'));
+  CHECK(sql::shown(std::string(201, 'a')) == std::string(200, 'a') + cut);
+  CHECK(sql::shown(std::string(199, 'a') + "\xc3\xa9") == std::string(199, 'a') + cut);
+  CHECK(sql::shown(std::string(198, 'a') + "\xc3\xa9 b") == std::string(198, 'a') + "\xc3\xa9" + cut);
+  CHECK(sql::shown(std::string(300, '\x80')) == cut);
 }
 
 TEST_CASE("progress and applicable skills of each frame are tables, and say what arrays say") {

@@ -86,7 +86,7 @@ void read_lua(std::string_view bytes) {
   answered([&] {  // as a task among the small root's files
     scratch().put("root/tasks/fuzzed.lua", bytes);
     std::vector<Error> complaints;
-    (void)Library::load({{kSource / "tests/scripting/data/runtime", scratch().path() / "root"}}, complaints);
+    (void)Library::check({{kSource / "tests/scripting/data/runtime", scratch().path() / "root"}}, complaints);
   });
 }
 

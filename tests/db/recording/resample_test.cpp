@@ -54,6 +54,33 @@ TEST_CASE("rates are differences of both neighbours, and of one at ends and gaps
   CHECK(rates[4] == Approx(10));
 }
 
+TEST_CASE("rates of several columns are each column's own") {
+  const std::vector<double> rates = differences({0, 100, 1, 300, 4, 600}, 2, 10);
+  CHECK(rates == std::vector<double>{10, 2000, 20, 2500, 30, 3000});
+}
+
+TEST_CASE("frames before the first reading and after the last have no value on a line") {
+  const std::vector<double> values = linear(track_of({0.03, 0.05, 0.07}, {3, 5, 7}), {0, 50, 6}, 0.1);
+  CHECK(std::isnan(values[0]));
+  CHECK(std::isnan(values[1]));
+  CHECK(values[2] == Approx(4));
+  CHECK(values[3] == Approx(6));
+  CHECK(std::isnan(values[4]));
+  CHECK(std::isnan(values[5]));
+}
+
+TEST_CASE("of a stream the readings within the episode are counted, with their rate and longest gap") {
+  StreamRecord stream;
+  describe_times({-1, 0, 0.1, 0.2, 0.3, 0.8, 0.9, 5}, 0, 1, stream);
+  CHECK(stream.readings == 6);
+  CHECK(stream.rate_hz == Approx(10));
+  CHECK(stream.longest_gap_s == Approx(0.5));
+  describe_times({-1, 5}, 0, 1, stream);
+  CHECK(stream.readings == 0);
+  CHECK(stream.rate_hz == 0);
+  CHECK(stream.longest_gap_s == 0);
+}
+
 TEST_CASE("a clock has an offset, and a drift that counts from its reference") {
   const RecordingClock clock{"arm", 0.25, 100, 1.7e9};
   CHECK(clock.time(1.7e9) == Approx(1.7e9 + 0.25).margin(1e-6));

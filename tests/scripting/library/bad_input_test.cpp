@@ -72,7 +72,7 @@ class Root {
   Root& operator=(const Root&) = delete;
   std::string complaints() const {
     std::vector<Error> errors;
-    Library::load({{path_}}, errors);
+    Library::check({{path_}}, errors);
     std::string text;
     for (const Error& error : errors) text += std::string(error.what()) + "\n";
     return text;
@@ -167,7 +167,7 @@ TEST_CASE("each root's types count, and its colours, however many roots there ar
       "0.1, colour = \"mauve\" }\n";
   const Root first(sound_files()), second(more("orb", "plum")), third(tasks);
   std::vector<Error> errors;
-  const auto library = Library::load({{first.path(), second.path(), third.path()}}, errors);
+  const auto library = Library::check({{first.path(), second.path(), third.path()}}, errors);
   for (const Error& error : errors) UNSCOPED_INFO(error.what());
   CHECK(errors.empty());
   CHECK(library->domain().types.contains("orb"));
@@ -732,7 +732,7 @@ TEST_CASE("remarks: parts of an order that may come true before their turn, and 
   const auto remarks = [](const Files& files, const Files& own) {
     const Root root(files), mine(own);
     std::vector<Error> errors;
-    const auto library = Library::load({{root.path(), mine.path()}}, errors);
+    const auto library = Library::check({{root.path(), mine.path()}}, errors);
     for (const Error& error : errors) UNSCOPED_INFO(error.what());
     CHECK(errors.empty());
     std::string text;
@@ -879,9 +879,9 @@ TEST_CASE("all faults of all files come in one run, in the order of files and li
   REQUIRE(object != std::string::npos);
   CHECK(skill < task);
   CHECK(task < object);
-  std::vector<Error> unused;
   Root root(files);
-  CHECK_THROWS_AS(Library::load({{root.path()}}), LibraryError);
+  const auto library = Library::load({{root.path()}});
+  CHECK_THROWS_AS(library->require_sound({library->file(DefinitionKind::task, "take")}), LibraryError);
 }
 
 TEST_CASE("a later root wins, file by file") {

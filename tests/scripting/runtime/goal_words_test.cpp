@@ -39,7 +39,7 @@ class Written {
   std::string goal() const { return to_pddl(task().goal); }
   std::string complaints() const {
     std::vector<Error> errors;
-    Library::load({{STAMPEDE_SOURCE_DIR, path_}}, errors, {"written"});
+    Library::check({{STAMPEDE_SOURCE_DIR, path_}}, errors, {"written"});
     std::string text;
     for (const Error& error : errors) text += std::string(error.what()) + "\n";
     return text;

@@ -36,7 +36,7 @@ std::vector<std::string> complaints_about(const std::string& path, const std::st
   std::filesystem::create_directories((folder.path() / path).parent_path());
   write_text_file(folder.path() / path, text);
   std::vector<Error> errors;
-  Library::load({{STAMPEDE_SOURCE_DIR, folder.path()}}, errors, {"push_button"});
+  Library::check({{STAMPEDE_SOURCE_DIR, folder.path()}}, errors, {"push_button"});
   std::vector<std::string> told;
   for (const Error& error : errors) told.push_back(error.where() + ": " + error.message() + " | " + error.hint());
   return told;
