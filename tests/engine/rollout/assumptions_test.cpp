@@ -72,6 +72,28 @@ TEST_CASE("what is known goes first, and what makes no plan is not assumed") {
   }
 }
 
+TEST_CASE("after 64 guesses there is no plan, and each is asked for once") {
+  const auto asked = [](int boxes) {
+    Facts conceivable;
+    for (int box = 0; box < boxes; ++box) conceivable.insert({"in", {"key", "box" + std::to_string(box)}});
+    std::set<Facts> seen;
+    int times = 0;
+    const AssumingPlan found =
+        plan_assuming(finds("", "(have key)"), conceivable, RandomKey("test"), [&](const PlanningTask& task) {
+          seen.insert(task.problem.init);
+          ++times;
+          return PlanOutcome{};
+        });
+    CHECK_FALSE(found.outcome.solved);
+    CHECK(static_cast<int>(seen.size()) == times);
+    return times;
+  };
+  CHECK(asked(0) == 1);
+  CHECK(asked(3) == 4);
+  CHECK(asked(64) == 65);  // the first without any
+  CHECK(asked(100) == 65);
+}
+
 TEST_CASE("why a fact that nobody can see is not assumed: something else is known of its thing, and a plan misses it") {
   const std::vector<NotAssumed> facts = {{{"in", {"key", "high"}}, {"on", {"key", "table"}}},
                                          {{"in", {"key", "low"}}, {"on", {"key", "table"}}},

@@ -46,6 +46,23 @@ TEST_CASE("pieces follow one another: each begins where the last one ends") {
   CHECK(pieces[2].world_from_tip(1).isApprox(kStart, 1e-12));
 }
 
+TEST_CASE(
+    "a piece is made as it was asked for: how fast, whether it stops, what its end is called, how wide the hand is") {
+  const Ways ways;
+  Piece slow{piece::Offset{{0, 0.1, 0}}};
+  slow.speed = 0.03, slow.turn_speed = 0.2, slow.stop = true, slow.name = "edge", slow.opening = 0.05;
+  const auto pieces = ways({slow, {piece::Offset{{0, 0, 0.1}}}});
+  CHECK(pieces[0].speed == 0.03);
+  CHECK(pieces[0].turn_speed == 0.2);
+  CHECK(pieces[0].stop);
+  CHECK(pieces[0].name == "edge");
+  CHECK(pieces[0].opening == 0.05);
+  CHECK(pieces[1].speed == 0.25);
+  CHECK_FALSE(pieces[1].stop);
+  CHECK(pieces[1].name.empty());
+  CHECK_FALSE(pieces[1].opening);
+}
+
 TEST_CASE("an arc keeps its distance, and turns the tool with it or not") {
   const Ways ways;
   for (const bool turn : {true, false}) {
