@@ -45,10 +45,10 @@ std::int64_t episode_number(const std::string& text);  // throws UsageError
 // What --root and --path name. What has mistakes is left out, and only those who use it hear of them (require_sound).
 // With tasks these alone are read.
 std::shared_ptr<const Library> load_library(const Arguments& arguments, const std::vector<std::string>& tasks = {});
-// On stderr: which files were left out, for they have mistakes, but those that are `told` already.
-void tell_left_out(const Library& library, const std::vector<const ScriptFile*>& told, Console& console);
 // The same, whatever mistakes files have: for commands that ask only for words of it.
 std::shared_ptr<const Library> words_of(const Arguments& arguments);
+// On stderr: which files were left out, for they have mistakes, but those that are `told` already.
+void tell_left_out(const Library& library, const std::vector<const ScriptFile*>& told, Console& console);
 Roots roots_of(const Arguments& arguments);
 // For its outputs: what it reads, and --force.
 OutputRules output_rules(const Arguments& arguments, const Console& console);
