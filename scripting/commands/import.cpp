@@ -220,7 +220,7 @@ ExitCode import_problem(const Arguments& arguments, Console& console) {
     return kNo;
   }
   const auto library = library_with(arguments, root, source.files, name);
-  if (!arguments.list("--path").empty()) write_editor_files(root, *words_of(arguments));
+  if (!arguments.list("--path").empty()) write_editor_files(root, *before);
   bool interrupted = false;
   const std::vector<Judged> judged = run_task(arguments, library, name, console, interrupted);
   print(judged, path, imported, arguments.flag("--json"), console);

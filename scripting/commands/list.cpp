@@ -37,14 +37,11 @@ const Listing* shelf_named(const std::string& name) {
 std::vector<const ScriptFile*> usable(const Library& library, DefinitionKind kind, Console& console) {
   std::vector<const ScriptFile*> files = library.files(kind);
   std::erase_if(files, [&](const ScriptFile* file) {
-    try {
-      library.require_sound({file});
-      return false;
-    } catch (const LibraryError&) {
+    const bool sound = library.complaints_about({file}).empty();
+    if (!sound)
       console.err << fmt::format("{} has mistakes, or uses what has; `stampede check {}` names them\n",
                                  file->shown_path, file->name);
-      return true;
-    }
+    return !sound;
   });
   return files;
 }
@@ -58,7 +55,7 @@ QueryResult shelf_table(const Library& library, const Listing& shelf, Console& c
   for (const ScriptFile* file : usable(library, shelf.kind, console)) {
     std::vector<SqlValue> row = {file->name};
     if (tasks) {
-      const Library::TaskInfo& task = task_info(library, file->name);
+      const Library::TaskInfo& task = *library.task(file->name);
       row.emplace_back(static_cast<std::int64_t>(task.variation_texts.size()));
       row.emplace_back(task.world);
     }
@@ -104,7 +101,7 @@ ExitCode list_hashes(const std::shared_ptr<const Library>& library, const std::s
   }
   if (what != "tasks") throw UsageError("--hash is of tasks", "stampede list --hash, or stampede list TASK --hash");
   for (const ScriptFile* file : usable(*library, DefinitionKind::task, console))
-    console.out << hash_of(library, task_info(*library, file->name)) << " " << file->name << "\n";
+    console.out << hash_of(library, *library->task(file->name)) << " " << file->name << "\n";
   return kDone;
 }
 

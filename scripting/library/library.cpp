@@ -73,16 +73,22 @@ std::shared_ptr<const Library> Library::load(const Roots& roots, const std::vect
   }
 }
 
-void Library::require_sound(const std::vector<const ScriptFile*>& files) const {
-  if (std::all_of(complaints_.begin(), complaints_.end(), [](const auto& round) { return round.empty(); })) return;
+std::vector<Error> Library::complaints_about(const std::vector<const ScriptFile*>& files) const {
+  if (std::all_of(complaints_.begin(), complaints_.end(), [](const auto& round) { return round.empty(); })) return {};
   const std::vector<const ScriptFile*> used = used_by(files);
   for (const std::vector<Error>& round : complaints_) {
     std::vector<Error> found;
     for (const Error& error : round)
       if (std::any_of(used.begin(), used.end(), [&](const ScriptFile* file) { return is_about(error, *file); }))
         found.push_back(error);
-    if (!found.empty()) throw LibraryError(std::move(found));
+    if (!found.empty()) return found;
   }
+  return {};
+}
+
+void Library::require_sound(const std::vector<const ScriptFile*>& files) const {
+  std::vector<Error> found = complaints_about(files);
+  if (!found.empty()) throw LibraryError(std::move(found));
 }
 
 const ScriptFile* Library::file(DefinitionKind kind, std::string_view name) const {

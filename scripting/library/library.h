@@ -66,7 +66,9 @@ class Library {
                                               const std::vector<std::string>& tasks = {});
   // What can be read, whatever mistakes there are: for those who ask for words of it.
   static std::shared_ptr<const Library> load_words(const Roots& roots);
-  // Throws LibraryError with the complaints about these files and what they use, if there are any.
+  // About these files and what they use: of the rounds in which files were left out, those of the first that has any.
+  std::vector<Error> complaints_about(const std::vector<const ScriptFile*>& files) const;
+  // Throws LibraryError with these, if there are any.
   void require_sound(const std::vector<const ScriptFile*>& files) const;
   // These files and those that they name, and so on: objects, worlds, robots, predicates, skills, modules. Of a task
   // without steps also skills that were left out and that alone could make true what the task speaks of, or that stand

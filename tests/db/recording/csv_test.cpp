@@ -1,11 +1,11 @@
 // CSV files as programs write them, and what is wrong with others.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
 
 #include "db/recording/csv_file.h"
 #include "engine/base/error.h"
 #include "engine/base/temporary_folder.h"
+#include "engine/base/text_file.h"
 
 using namespace stampede;
 using Catch::Contains;
@@ -14,20 +14,22 @@ namespace {
 
 using CsvRows = std::vector<std::vector<std::string>>;
 
+CsvFile file_of(const std::string& text) {
+  const TemporaryFolder folder;
+  write_text_file(folder.path() / "a.csv", text);
+  return CsvFile(folder.path() / "a.csv", "a.csv");
+}
+
 // All rows, the header first.
 CsvRows rows_of(const std::string& text) {
-  const TemporaryFolder folder;
-  std::ofstream(folder.path() / "a.csv", std::ios::binary) << text;
-  CsvFile file(folder.path() / "a.csv", "a.csv");
+  CsvFile file = file_of(text);
   CsvRows rows = {file.header()};
   while (file.next()) rows.emplace_back(file.fields().begin(), file.fields().end());
   return rows;
 }
 
 double number_of(const std::string& field) {
-  const TemporaryFolder folder;
-  std::ofstream(folder.path() / "a.csv", std::ios::binary) << "x,y\n1," << field << "\n";
-  CsvFile file(folder.path() / "a.csv", "a.csv");
+  CsvFile file = file_of("x,y\n1," + field + "\n");
   REQUIRE(file.next());
   return file.number(1);
 }
