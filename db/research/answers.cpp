@@ -97,6 +97,8 @@ void read_json(const std::string& text, const ResearchProblem& problem, Answers&
   const auto rows = json.find("answers");
   if (rows == json.end()) return;
   if (!rows->is_array()) throw Error(answers.where, "'answers' is a list of objects", column_names(problem));
+  if (problem.answer.empty() && !rows->empty())
+    throw Error(answers.where, "'answers' has rows, of which this problem has none", kCompare);
   std::size_t number = 0;
   for (const nlohmann::json& row : *rows)
     answers.rows.rows.push_back(row_from(row, problem, answers.where + ", answer " + std::to_string(++number)));

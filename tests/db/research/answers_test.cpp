@@ -89,6 +89,8 @@ TEST_CASE("answers that are wrong are refused with their place") {
   refused("episode,frame,value\n1,0,nan\n", "finite", "rewards");
   refused("episode,frame,value\n1,0,1e999\n", "finite", "rewards");
   refused("{\"answers\": [{\"episode\": 1, \"frame\": 0, \"value\": 1e999}]}", "", "rewards");
+  refused("{\"dataset\": \"d\", \"domain\": \"(define)\", \"answers\": [{}]}", "rows, of which this problem has none",
+          "abstractions");
 }
 
 TEST_CASE("answers that mean harm are refused in a line or two") {
