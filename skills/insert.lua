@@ -8,7 +8,7 @@ return skill {
   continuous = {
     spot = stream(is.in_slot("obj", "slot")),                           -- pose of the object
     clear = { 0.04, min = 0.01, max = 0.15, unit = "m" },               -- how far before the slot the straight way begins
-    speed = { 0.10, min = 0.02, max = 0.3, unit = "m/s" },
+    speed = { 0.05, min = 0.02, max = 0.3, unit = "m/s" },
   },
   label = "put the {obj} into the {slot}",
   verbs = { "insert", "lower", "put", "drop", "stack", "slide", "push", "stand" },

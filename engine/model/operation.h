@@ -20,7 +20,7 @@ std::vector<std::string> controller_names();
 // Everything that changes a world from outside is one of these: writer, reader and replayer share the list.
 // Operations take effect at the step at which they are applied. `robot`: which robot of the scene, from 0.
 namespace operation {
-struct Boundary {};  // drops all contact caches, so that a snapshot taken here restores bit for bit
+struct Boundary {};  // contacts are found anew, so that a snapshot taken here restores bit for bit
 struct Controller {
   ControllerKind kind = ControllerKind::joint_position;
   double stiffness = 0;  // 0: the default of the kind (N m/rad; cartesian: N/m); damping is critical

@@ -94,7 +94,7 @@ class Rollout {
     int stage = 0;
   };
   // Both between two calls, not while one is under way.
-  Checkpoint checkpoint();  // drops contact caches first
+  Checkpoint checkpoint();  // contacts are found anew first
   void restore(const Checkpoint& checkpoint);
 
   // A checkpoint with all that was recorded so far: one can go back to it from another branch of events.

@@ -44,7 +44,7 @@ class SkillTrack {
     std::size_t subgoal = 0;
     int subgoal_segment = 0;
   };
-  Place here();                      // drops contact caches, at every boundary, whether or not anything is undone
+  Place here();                      // finds contacts anew, at every boundary, whether or not anything is undone
   void back_to(const Place& place);  // what has been since becomes attempts
   void place_attempts();             // at the end: each learns the segment that took its place
 

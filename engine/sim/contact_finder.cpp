@@ -1,5 +1,7 @@
 #include "engine/sim/contact_finder.h"
 
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
+
 #include <algorithm>
 
 #include "engine/sim/bullet_convert.h"
@@ -12,6 +14,26 @@ btDefaultCollisionConstructionInfo small_pools() {
   btDefaultCollisionConstructionInfo info;
   info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = 256;
   return info;
+}
+
+constexpr btScalar kPressed_m = 0.001;
+
+int number_of(const btCollisionObject& object) { return object.getWorldArrayIndex(); }
+bool is_robot(const btCollisionObject& object) { return object.getUserIndex() == kRobot; }
+btCollisionObject& object_of(const btBroadphaseProxy& proxy) {
+  return *static_cast<btCollisionObject*>(proxy.m_clientObject);
+}
+
+// Between two shapes of several pieces without trees, Bullet's own list lacks all of them.
+void list_manifolds(btCollisionAlgorithm& algorithm, btManifoldArray& manifolds) {
+  manifolds.resize(0);
+  algorithm.getAllContactManifolds(manifolds);
+  if (auto* pieces = dynamic_cast<btCompoundCompoundCollisionAlgorithm*>(&algorithm))
+    pieces->btCompoundCollisionAlgorithm::getAllContactManifolds(manifolds);
+}
+
+bool same_pieces(const btManifoldPoint& one, const btManifoldPoint& other) {
+  return one.m_index0 == other.m_index0 && one.m_index1 == other.m_index1;
 }
 
 }  // namespace
@@ -40,7 +62,7 @@ double contact_margin(const btCollisionObject& one, const btCollisionObject& oth
     return object.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold);
   };
   constexpr btScalar kOfRobot = 0.002;
-  const bool of_robot = one.getUserIndex() == kRobot || other.getUserIndex() == kRobot;
+  const bool of_robot = is_robot(one) || is_robot(other);
   return std::max(of_robot ? kOfRobot : 0, std::min(usual(one), usual(other)));
 }
 
@@ -53,13 +75,69 @@ btPersistentManifold* Dispatcher::getNewManifold(const btCollisionObject* one, c
 void Dispatcher::look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info) {
   const auto& one = *static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject);
   const auto& other = *static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);
-  const bool links = one.getUserIndex() == kRobot && other.getUserIndex() == kRobot;
-  if (!links || !static_cast<const Dispatcher&>(dispatcher).apart(one, other))
-    return defaultNearCallback(pair, dispatcher, info);
+  const bool links = is_robot(one) && is_robot(other);
+  auto& own = static_cast<Dispatcher&>(dispatcher);
+  if (!links || !own.apart(one, other)) {
+    defaultNearCallback(pair, dispatcher, info);
+    return own.put_back(pair, info);
+  }
   if (pair.m_algorithm == nullptr) return;
   btManifoldArray manifolds;  // what they touched at when they were near must not outlive that
-  pair.m_algorithm->getAllContactManifolds(manifolds);
+  list_manifolds(*pair.m_algorithm, manifolds);
   for (int i = 0; i < manifolds.size(); ++i) dispatcher.clearManifold(manifolds[i]);
+}
+
+// That of the pieces which met at a point, among those of a pair; none while they do not.
+btPersistentManifold* Dispatcher::manifold_at(const btManifoldPoint& point) const {
+  for (int i = 0; i < listed_.size(); ++i)
+    if (listed_[i]->getNumContacts() > 0 && same_pieces(listed_[i]->getContactPoint(0), point)) return listed_[i];
+  return nullptr;
+}
+
+void Dispatcher::press_together(btBroadphasePair& pair, const btCollisionObject& first, const btManifoldPoint& point,
+                                const btDispatcherInfo& info) {
+  btCollisionObject& moved = object_of(*pair.m_pProxy0).getWorldArrayIndex() == first.getWorldArrayIndex()
+                                 ? object_of(*pair.m_pProxy0)
+                                 : object_of(*pair.m_pProxy1);
+  const btTransform stands = moved.getWorldTransform();
+  moved.getWorldTransform().getOrigin() -=
+      (std::max(btScalar(0), point.getDistance()) + kPressed_m) * point.m_normalWorldOnB;
+  defaultNearCallback(pair, *this, info);
+  moved.setWorldTransform(stands);
+  list_manifolds(*pair.m_algorithm, listed_);
+}
+
+void Dispatcher::put_back(btBroadphasePair& pair, const btDispatcherInfo& info) {
+  if (kept.empty() || pair.m_algorithm == nullptr) return;
+  const btCollisionObject *one = &object_of(*pair.m_pProxy0), *other = &object_of(*pair.m_pProxy1);
+  auto known = kept.find({number_of(*one), number_of(*other)});
+  if (known == kept.end()) {
+    std::swap(one, other);
+    known = kept.find({number_of(*one), number_of(*other)});
+  }
+  if (known == kept.end()) return;
+  list_manifolds(*pair.m_algorithm, listed_);
+  std::vector<btPersistentManifold*> owners;
+  for (const btManifoldPoint& point : known->second) {
+    btPersistentManifold* owner = listed_.size() == 1 ? listed_[0] : manifold_at(point);
+    if (owner == nullptr) {
+      press_together(pair, *one, point, info);
+      owner = manifold_at(point);
+    }
+    owners.push_back(owner);
+  }
+  for (int i = 0; i < listed_.size(); ++i) clearManifold(listed_[i]);
+  for (std::size_t i = 0; i < owners.size(); ++i)
+    if (owners[i] != nullptr) owners[i]->addManifoldPoint(known->second[i]);
+  defaultNearCallback(pair, *this, info);
+}
+
+void Dispatcher::find_again(btBroadphasePair& pair, const LostContact& lost, const btDispatcherInfo& info) {
+  defaultNearCallback(pair, *this, info);
+  list_manifolds(*pair.m_algorithm, listed_);
+  if (manifold_at(lost.point) != nullptr) return;
+  press_together(pair, *lost.one, lost.point, info);
+  defaultNearCallback(pair, *this, info);
 }
 
 ContactFinder::ContactFinder()
@@ -75,7 +153,47 @@ ContactFinder::~ContactFinder() {
     if ((*it)->getBroadphaseHandle()) world.removeCollisionObject(it->get());
 }
 
-void ContactFinder::rebuild() {
+ContactPoints ContactFinder::points() {
+  ContactPoints all = dispatcher.kept;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    if (manifold.getNumContacts() == 0) continue;
+    auto& points = all[{number_of(*manifold.getBody0()), number_of(*manifold.getBody1())}];
+    for (int p = 0; p < manifold.getNumContacts(); ++p) points.push_back(manifold.getContactPoint(p));
+  }
+  return all;
+}
+
+void ContactFinder::find() {
+  touched_.clear();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    if (manifold.getNumContacts() > 0 && (is_robot(*manifold.getBody0()) || is_robot(*manifold.getBody1())))
+      touched_.push_back({&manifold, manifold.getBody0(), manifold.getBody1(), manifold.getContactPoint(0)});
+  }
+  world.performDiscreteCollisionDetection();
+  dispatcher.kept.clear();
+  find_lost();
+}
+
+void ContactFinder::find_lost() {
+  std::erase_if(touched_, [&](const LostContact& before) {
+    btPersistentManifold** const all = dispatcher.getInternalManifoldPointer();
+    btPersistentManifold** const end = all + dispatcher.getNumManifolds();
+    btPersistentManifold** const now = std::find(all, end, before.manifold);
+    return now == end || (*now)->getNumContacts() > 0 || (*now)->getBody0() != before.one ||
+           (*now)->getBody1() != before.other;
+  });
+  for (const LostContact& lost : touched_) {
+    btBroadphasePair* pair = broadphase.getOverlappingPairCache()->findPair(
+        const_cast<btBroadphaseProxy*>(lost.one->getBroadphaseHandle()),
+        const_cast<btBroadphaseProxy*>(lost.other->getBroadphaseHandle()));
+    if (pair != nullptr && pair->m_algorithm != nullptr) dispatcher.find_again(*pair, lost, world.getDispatchInfo());
+  }
+}
+
+void ContactFinder::rebuild(ContactPoints kept) {
+  dispatcher.kept = std::move(kept);
   btCollisionObjectArray& present = world.getCollisionObjectArray();
   std::vector<std::pair<int, int>> filters;
   for (int i = 0; i < present.size(); ++i) {
@@ -99,6 +217,9 @@ void ContactFinder::rebuild() {
 void ContactFinder::forget_pairs(btCollisionObject& object) {
   if (!object.getBroadphaseHandle()) return;
   broadphase.getOverlappingPairCache()->cleanProxyFromPairs(object.getBroadphaseHandle(), &dispatcher);
+  std::erase_if(dispatcher.kept, [number = number_of(object)](const auto& pair) {
+    return pair.first.first == number || pair.first.second == number;
+  });
   world.updateSingleAabb(&object);
 }
 

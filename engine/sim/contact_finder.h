@@ -3,6 +3,7 @@
 
 #include <btBulletCollisionCommon.h>
 
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -26,6 +27,16 @@ struct PairFilter final : btOverlapFilterCallback {
   std::set<std::pair<int, int>> links;  // of the robot
 };
 
+// Points of contact of each pair of objects, numbered in the order of their creation.
+using ContactPoints = std::map<std::pair<int, int>, std::vector<btManifoldPoint>>;
+
+// A point at which two touched in the step before, and where it was found.
+struct LostContact {
+  const btPersistentManifold* manifold = nullptr;
+  const btCollisionObject *one = nullptr, *other = nullptr;
+  btManifoldPoint point;
+};
+
 // Links are near each other all the time, in the eyes of boxes along the axes: most are told apart here, cheaply.
 struct Dispatcher final : btCollisionDispatcher {
   explicit Dispatcher(btCollisionConfiguration* configuration) : btCollisionDispatcher(configuration) {
@@ -34,11 +45,23 @@ struct Dispatcher final : btCollisionDispatcher {
   btPersistentManifold* getNewManifold(const btCollisionObject* one, const btCollisionObject* other) override;
   static void look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info);
   bool apart(const btCollisionObject& one, const btCollisionObject& other) const;
+  // Searches on from this pair's points of `kept`.
+  void put_back(btBroadphasePair& pair, const btDispatcherInfo& info);
+  void find_again(btBroadphasePair& pair, const LostContact& lost, const btDispatcherInfo& info);
   struct Piece {
     Convex convex;
     Transform object_from_shape;
   };
   std::vector<std::vector<Piece>> links;  // per part of the robot
+  ContactPoints kept;                     // those that the next search goes on from
+
+ private:
+  btPersistentManifold* manifold_at(const btManifoldPoint& point) const;
+  // Pieces that just touch, for a moment, so that it is told of: `first` is whose side of the point comes first.
+  void press_together(btBroadphasePair& pair, const btCollisionObject& first, const btManifoldPoint& point,
+                      const btDispatcherInfo& info);
+
+  btManifoldArray listed_;  // of the pair that is looked at
 };
 
 struct ContactFinder {
@@ -47,9 +70,12 @@ struct ContactFinder {
   ContactFinder(const ContactFinder&) = delete;
   ContactFinder& operator=(const ContactFinder&) = delete;
 
+  ContactPoints points();
   // Takes every object out and puts it back in creation order: trees, pairs, ids and manifolds are then those of a
-  // world that was just built, whatever came before.
-  void rebuild();
+  // world that was just built, whatever came before. The next find() goes on from these points: found one a step, those
+  // of a grasp would let what it holds turn meanwhile.
+  void rebuild(ContactPoints kept);
+  void find();
   // What was moved by hand touches nothing until contacts are found anew.
   void forget_pairs(btCollisionObject& object);
 
@@ -61,6 +87,14 @@ struct ContactFinder {
   btDbvtBroadphase broadphase;
   btCollisionWorld world;
   std::vector<std::unique_ptr<btCollisionObject>> objects;  // in creation order: Bullet sorts pairs by it
+
+ private:
+  // What a robot touches and what a step forgets: a point that slid too far, in whose place an anchored one has kept
+  // out what was found, or boxes that just touch are not told of. A hand that grips would shut by millimetres
+  // meanwhile.
+  void find_lost();
+
+  std::vector<LostContact> touched_;  // before the last find(); those that it lost
 };
 
 }  // namespace stampede

@@ -155,8 +155,19 @@ void RobotControl::control_position(const JointState& now, const JointState& nex
     if (reference.servo && motor.saturated && std::abs(error) > 1e-3)
       acted_.note(std::abs(motor.force) > 0.999 * motor.most_force ? Limit::torque : Limit::contact);
   }
+  if (reference.servo) keep_tool_slow(jacobian);
   arm_torque.setZero();
   foreseen.resize(0);
+}
+
+// An arm that gets back to its reference is faster than that; its tool must not be.
+void RobotControl::keep_tool_slow(const TipJacobian& jacobian) {
+  JointVector speeds(jacobian.cols());
+  for (Eigen::Index i = 0; i < speeds.size(); ++i) speeds[i] = arm_motors_[static_cast<std::size_t>(i)]->velocity;
+  const double speed = (jacobian.topRows<3>() * speeds).norm();
+  if (speed <= kBrakedToolSpeed) return;
+  acted_.note(Limit::tool_speed);
+  for (JointMotor* motor : arm_motors_) motor->velocity *= kBrakedToolSpeed / speed;
 }
 
 void RobotControl::update_dynamics() {

@@ -32,17 +32,17 @@ Vector3 after_gyration(const Vector3& spin, const Vector3& moments, const Matrix
 
 }  // namespace
 
-Dynamics::Dynamics(btCollisionWorld& world, const Vector3& gravity, double dt)
-    : world_(world),
+Dynamics::Dynamics(ContactFinder& finder, const Vector3& gravity, double dt)
+    : finder_(finder),
       gravity_(gravity),
       dt_(dt),
-      sleep_(world, movers_, dt),
-      encounters_(world, movers_, gravity, dt),
-      islands_(world, movers_),
+      sleep_(finder.world, movers_, dt),
+      encounters_(finder.world, movers_, gravity, dt),
+      islands_(finder.world, movers_),
       solver_(movers_, speeds_, gravity, dt) {}
 
 void Dynamics::step(int iterations) {
-  world_.performDiscreteCollisionDetection();
+  finder_.find();
   encounters_.find();
   solver_.forget_torsions();
   sleep_.wake_what_is_met();

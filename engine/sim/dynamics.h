@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "engine/sim/contact_finder.h"
 #include "engine/sim/encounters.h"
 #include "engine/sim/island_solver.h"
 #include "engine/sim/sleep.h"
@@ -17,7 +18,7 @@ namespace stampede {
 
 class Dynamics {
  public:
-  Dynamics(btCollisionWorld& world, const Vector3& gravity, double dt);
+  Dynamics(ContactFinder& finder, const Vector3& gravity, double dt);
   Dynamics(const Dynamics&) = delete;  // its parts know each other
   Dynamics& operator=(const Dynamics&) = delete;
 
@@ -27,7 +28,7 @@ class Dynamics {
   // Whoever moves a body himself wakes it first, and all that lies together with it.
   void wake(const btCollisionObject& object) { sleep_.wake(object); }
   void let_sleep(bool sleep);  // false: all wake, and stay so
-  // Where contacts are dropped: all wake; who slept may sleep again as soon as contacts are found anew.
+  // Where contacts are looked for anew: all wake; who slept may sleep again as soon as they are found.
   void forget_contacts();
   std::vector<Rest> rest() const;
   void set_rest(const std::vector<Rest>& rest);
@@ -37,7 +38,7 @@ class Dynamics {
   void apply_forces();
   void move();
 
-  btCollisionWorld& world_;
+  ContactFinder& finder_;
   Vector3 gravity_;
   double dt_;
   Movers movers_;

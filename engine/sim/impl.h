@@ -21,7 +21,7 @@ struct World::Impl {
   void place(int body, const Transform& world_from_body);  // snapshot.cpp
   void forget_pairs(int body);
   void canonicalise();
-  void forget_contacts();
+  void start_anew(ContactPoints kept);
 
   std::shared_ptr<const Scene> scene;
   StepClock clock;

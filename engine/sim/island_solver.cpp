@@ -188,7 +188,8 @@ void IslandSolver::add_contacts(const Touching& touching, double kept, const Bou
       if (approach < -kBounceSpeed) row.target -= point.m_combinedRestitution * approach;
     }
     row.lower = 0;
-    row.upper = of_robot ? dt_ * softened(distance, touching.points) : bounds.impulse;
+    row.upper = of_robot ? dt_ * softened(distance, -distance < touching.deep_m ? touching.points : touching.deep)
+                         : bounds.impulse;
     rows_.start(row, std::min(row.upper, kept * point.m_appliedImpulse));
     const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
     for (int i = 0; i < 2; ++i) {

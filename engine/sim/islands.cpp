@@ -60,13 +60,20 @@ void Islands::look_at_points() {
   for (auto it = touching_.begin(); it != touching_.end();) {
     auto end = it;
     points_.clear();
+    depths_.clear();
     for (; end != touching_.end() && end->first == it->first && end->second == it->second; ++end)
       for (int p = 0; p < end->manifold->getNumContacts(); ++p)
-        if (const btManifoldPoint& point = end->manifold->getContactPoint(p); point.getDistance() < kBears_m)
+        if (const btManifoldPoint& point = end->manifold->getContactPoint(p); point.getDistance() < kBears_m) {
           points_.push_back(from_bullet(point.m_positionWorldOnB));
+          depths_.push_back(-point.getDistance());
+        }
     const bool narrow = lie_along_a_line(points_);
+    const double deep_m = depths_.empty() ? 0 : std::max(0.0, *std::ranges::max_element(depths_) / 2);
+    const auto deep = std::ranges::count_if(depths_, [deep_m](double depth) { return depth >= deep_m; });
     for (; it != end; ++it) {
       it->points = static_cast<int>(points_.size());
+      it->deep = static_cast<int>(deep);
+      it->deep_m = deep_m;
       it->narrow = narrow;
     }
   }

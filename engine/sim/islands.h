@@ -17,7 +17,9 @@ struct Touching {
   int first = 0, second = 0;  // objects of the world
   btPersistentManifold* manifold = nullptr;
   bool on_link = false;
-  int points = 0;      // of all manifolds of these two
+  int points = 0;  // of all manifolds of these two
+  int deep = 0;    // those of them that lie in each other at least `deep_m`: half as far as the deepest
+  double deep_m = 0;
   bool narrow = true;  // all points of these two lie along a line: nothing else resists turning about it
 };
 
@@ -44,6 +46,7 @@ class Islands {
   std::vector<Touching> touching_;
   std::vector<Island> islands_;
   std::vector<Vector3> points_;
+  std::vector<double> depths_;
 };
 
 }  // namespace stampede

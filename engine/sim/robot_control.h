@@ -75,6 +75,7 @@ class RobotControl : public ControlState {
   void look_ahead();  // approach.cpp
   void control_torque(const JointVector& asked);
   void control_position(const JointState& now, const JointState& next);
+  void keep_tool_slow(const TipJacobian& jacobian);
   void control_joint_impedance(const JointState& next);
   void control_cartesian_impedance(const JointState& next);
   void give_torques(JointVector torque);

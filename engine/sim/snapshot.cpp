@@ -1,6 +1,7 @@
 // Snapshots that restore bit for bit. Bullet keeps state that cannot be read (pair order, contact caches, trees of the
-// broadphase), so it is not saved but dropped, on both sides and in the same way.
+// broadphase), so it is not saved but dropped, on both sides and in the same way; points of contact are kept.
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
@@ -15,20 +16,21 @@ struct Snapshot::Data {
   std::vector<bool> locked;
   std::int64_t steps = 0;
   ControlState control;
+  ContactPoints points;
   ContactWindow::State contacts;
   std::vector<std::vector<double>> efforts;
   CommandLog::Mark log;
 };
 
-void World::Impl::forget_contacts() {
-  finder.rebuild();
+void World::Impl::start_anew(ContactPoints kept) {
+  finder.rebuild(std::move(kept));
   dynamics.forget_contacts();
   bodies.moved();
 }
 
 void World::Impl::canonicalise() {
   bodies.set_state(bodies.state());
-  forget_contacts();
+  start_anew(finder.points());
   clock.boundary_step = clock.steps;
   canonical = true;
 }
@@ -72,6 +74,7 @@ Snapshot World::snapshot() const {
   for (const Mechanism& mechanism : w.mechanisms) data->locked.push_back(mechanism.locked);
   data->steps = w.clock.steps;
   data->control = w.control;
+  data->points = w.finder.dispatcher.kept;
   data->contacts = w.contacts.state();
   data->efforts = w.efforts;
   data->log = impl_->log.mark();
@@ -85,7 +88,7 @@ void World::restore(const Snapshot& snapshot) {
   if (data.state.size() != w.bodies.state().size() || data.locked.size() != w.mechanisms.size())
     throw Error("World::restore", "the snapshot is of another scene", "restore into a world of an equal scene");
   w.bodies.set_state(data.state);
-  w.forget_contacts();
+  w.start_anew(data.points);
   w.dynamics.set_rest(data.rest);
   for (std::size_t i = 0; i < w.mechanisms.size(); ++i) w.mechanisms[i].locked = data.locked[i];
   w.clock.steps = w.clock.boundary_step = data.steps;

@@ -15,7 +15,7 @@ constexpr int kStrainedIterations = 120;  // of a light part between a stop and 
 World::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     : scene(std::move(scene_in)),
       clock{1.0 / scene->physics_hz},
-      dynamics(finder.world, scene->gravity, clock.dt),
+      dynamics(finder, scene->gravity, clock.dt),
       bodies(scene),
       control(bodies, contacts, dynamics.movers(), clock) {
   efforts.resize(scene->bodies.size() + 1);

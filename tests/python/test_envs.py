@@ -165,6 +165,25 @@ def test_any_space_at_any_step():
     assert result[4]["is_success"] is True
 
 
+def test_an_arm_that_gets_back_to_its_way_makes_its_tool_no_faster():
+    # It comes to the stop of its elbow, its motors bear no more, and it falls behind what it is led by.
+    env = Env("open_jar", action="tool_velocity", horizon_s=10, hidden=True)
+    draw = np.random.default_rng([0, 200])
+    env.reset(seed=0)
+    over, before, held, fastest = False, None, 0, 0.0
+    while not over:
+        if held == 0:
+            low, high = env.action_space.low, env.action_space.high
+            action, held = low + draw.random(env.action_space.shape) * (high - low), int(draw.integers(1, 20))
+        held -= 1
+        seen, _, ended, cut, _ = env.step(action.astype(env.action_space.dtype))
+        over, place = ended or cut, seen["gripper_pose"][:3]
+        fastest = max(fastest, 0.0 if before is None else float(np.linalg.norm(place - before)) * 20)
+        before = place
+    env.close()
+    assert 1.5 < fastest < 1.67
+
+
 def test_actions_have_names_units_and_true_bounds():
     env = Env("reach_target", action="tool_impedance")
     assert env.action_names == ["x", "y", "z", "qx", "qy", "qz", "qw", "stiffness", "gripper"]

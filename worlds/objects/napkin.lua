@@ -1,5 +1,5 @@
 -- A napkin on the table, with cutlery side by side on it. Its frame is on the table.
-local thick = 0.002 -- m
+local thick = 0.005 -- m: folded
 
 local function place(y)
   return { at = { 0, y, thick + 0.008 }, size = { 0.024, 0.024, 0.020 }, traits = { "container", "spot" }, numbers = { folds = 1 } }

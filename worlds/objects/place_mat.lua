@@ -1,6 +1,6 @@
 -- A mat for one person who sits at +x: places for a bowl, a fork to its left, a knife and a spoon to its right and a glass
 -- behind the knife. Its frame is on the table.
-local thick = 0.002 -- m
+local thick = 0.004 -- m
 
 local function place(x, y, high, folds)
   return { at = { x, y, thick + high / 2 }, rpy = { 0, 0, math.pi }, size = { 0.024, 0.024, high + 0.004 }, traits = { "container", "spot" }, numbers = { folds = folds } }

@@ -98,6 +98,38 @@ TEST_CASE("light things stay in the middle of the hand where contact has to be f
   }
 }
 
+TEST_CASE("what the hand holds stays as it is where contact has to be found anew", "[sim]") {
+  Scene scene = table_scene(0);
+  Body stick = box_body("stick", {0.045, 0.02, 0.012}, {0.4, 0.1, 0.006}, 0.02);
+  Shape plug = box_shape({0.014, 0.0125, 0.0048}, {0.0295, 0, 0});  // two pieces, as the pads' links have
+  stick.parts[0].shapes.push_back(plug);
+  set_uniform_mass(stick.parts[0], 0.02);
+  add_body(scene, stick);
+  World world(shared(std::move(scene)));
+  const PartRef held{body_index(world, "stick"), 0};
+  const Vector3 at = world.world_from_part(held).translation() + Vector3(-0.01, 0, 0.005);
+  move_to(world, solve(world, tip_down(at.x(), at.y(), at.z() + 0.1), world.arm().home()), 2);
+  move_line(world, tip_down(at.x(), at.y(), at.z()), 1);
+  grip(world, 0, 12);
+  move_line(world, tip_down(at.x(), at.y(), at.z() + 0.2), 1);
+  run(world, 0.5);
+  REQUIRE(world.grasped() == held);
+  const auto in_hand = [&] { return Transform(world.world_from_tip().inverse() * world.world_from_part(held)); };
+  const Transform before = in_hand();
+  for (int boundary = 0; boundary < 4; ++boundary) {
+    world.apply(operation::Boundary{});
+    if (boundary == 3) {
+      world.apply(operation::Boundary{});  // twice in one step
+      world.restore(world.snapshot());
+    }
+    run(world, 0.05);
+    const Transform after = in_hand();
+    CAPTURE(boundary);
+    CHECK((after.translation() - before.translation()).norm() < 2e-5);
+    CHECK(Eigen::AngleAxisd(before.linear().transpose() * after.linear()).angle() < 2e-4);
+  }
+}
+
 TEST_CASE("a turning hand presses along its own closing axis, and lets go when it opens", "[sim]") {
   World world(shared(table_scene(1)));
   const int cube = body_index(world, "cube1");
