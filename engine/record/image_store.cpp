@@ -74,11 +74,10 @@ std::vector<std::uint8_t> ImageStore::read(std::size_t index) const {
 }
 
 void ImageStore::read_all(const Take& take) const {
-  using Bytes = std::vector<std::uint8_t>;
   in_order(
       count(), {impl_->makers}, [] { return 0; },
-      [&](int, std::size_t i) { return impl_->places[i].make ? impl_->places[i].make() : Bytes(); },
-      [&](std::size_t i, Bytes made) { take(record(i), impl_->places[i].make ? made : read(i)); });
+      [&](int, std::size_t i) { return impl_->places[i].make ? impl_->places[i].make() : std::vector<std::uint8_t>(); },
+      [&](std::size_t i, std::vector<std::uint8_t> made) { take(record(i), impl_->places[i].make ? made : read(i)); });
 }
 
 void ImageStore::set_makers(int threads) { impl_->makers = threads; }

@@ -20,7 +20,7 @@ void set_frame(float* turn, float* at, const Transform& frame) {
 
 // The row of balls inside a box or cylinder.
 void set_core(ScreenShape& shape, const Vector3& half) {
-  constexpr double kSpacing = 1.2;  // times the radius
+  constexpr double kBallSpacing = 1.2;  // times the radius
   Eigen::Index longest = 0;
   half.maxCoeff(&longest);
   const double radius = half.minCoeff();
@@ -30,7 +30,7 @@ void set_core(ScreenShape& shape, const Vector3& half) {
   shape.core_count =
       radius + shape.rounding < 1e-3
           ? 0
-          : 1 + static_cast<int>(std::ceil(2 * shape.core_reach / (kSpacing * (radius + shape.rounding))));
+          : 1 + static_cast<int>(std::ceil(2 * shape.core_reach / (kBallSpacing * (radius + shape.rounding))));
 }
 
 ScreenShape screen_shape(const Convex& convex, const Transform& frame_from_shape) {
