@@ -39,11 +39,10 @@ bool same_pieces(const btManifoldPoint& one, const btManifoldPoint& other) {
 }  // namespace
 
 bool PairFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
-  const auto* one = static_cast<const btCollisionObject*>(a->m_clientObject);
-  const auto* two = static_cast<const btCollisionObject*>(b->m_clientObject);
-  if (one->getUserIndex() == two->getUserIndex())
-    return one->getUserIndex() == kRobot && links.contains(std::minmax({one->getUserIndex2(), two->getUserIndex2()}));
-  return !(one->isStaticObject() && two->isStaticObject());
+  const btCollisionObject &one = object_of(*a), &two = object_of(*b);
+  if (one.getUserIndex() == two.getUserIndex())
+    return is_robot(one) && links.contains(std::minmax({one.getUserIndex2(), two.getUserIndex2()}));
+  return !(one.isStaticObject() && two.isStaticObject());
 }
 
 bool Dispatcher::apart(const btCollisionObject& one, const btCollisionObject& other) const {
@@ -73,8 +72,7 @@ btPersistentManifold* Dispatcher::getNewManifold(const btCollisionObject* one, c
 }
 
 void Dispatcher::look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info) {
-  const auto& one = *static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject);
-  const auto& other = *static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+  const btCollisionObject &one = object_of(*pair.m_pProxy0), &other = object_of(*pair.m_pProxy1);
   const bool links = is_robot(one) && is_robot(other);
   auto& own = static_cast<Dispatcher&>(dispatcher);
   if (!links || !own.apart(one, other)) {
@@ -96,9 +94,7 @@ btPersistentManifold* Dispatcher::manifold_at(const btManifoldPoint& point) cons
 
 void Dispatcher::press_together(btBroadphasePair& pair, const btCollisionObject& first, const btManifoldPoint& point,
                                 const btDispatcherInfo& info) {
-  btCollisionObject& moved = object_of(*pair.m_pProxy0).getWorldArrayIndex() == first.getWorldArrayIndex()
-                                 ? object_of(*pair.m_pProxy0)
-                                 : object_of(*pair.m_pProxy1);
+  btCollisionObject& moved = object_of(&object_of(*pair.m_pProxy0) == &first ? *pair.m_pProxy0 : *pair.m_pProxy1);
   const btTransform stands = moved.getWorldTransform();
   moved.getWorldTransform().getOrigin() -=
       (std::max(btScalar(0), point.getDistance()) + kPressed_m) * point.m_normalWorldOnB;
