@@ -63,7 +63,7 @@ bool takes(Part part, const std::string& split) {
   return part == Part::all || (part == Part::test) == (split == "test");
 }
 
-ArmJoints arm_joints_of(const Catalogue& catalogue, const std::vector<Member>& members) {
+ArmJoints arm_joints_in(const Catalogue& catalogue, const std::vector<Member>& members) {
   std::map<std::int64_t, int> of_episode;
   ArmJoints arm;
   int fewest = 0;  // of a test episode; 0: none has one
@@ -290,7 +290,7 @@ DatasetReport make_dataset(const ResearchProblem& asked, const DatasetRequest& r
                     ": `stampede query FILE failures_by_reason` says why there are none");
   const Split split = split_episodes(episodes, rule);
   const std::vector<Member> members = members_of(catalogue, asked, episodes, split);
-  const Source source{catalogue, arm_joints_of(catalogue, members)};
+  const Source source{catalogue, arm_joints_in(catalogue, members)};
   const ResearchProblem problem = with_arm_joints(asked, source.arm);
   check_needs(source, problem, members, request.catalogue.string());
   make_folder(request.given);

@@ -30,7 +30,7 @@ std::string thing(const std::string& fields, const std::string& traits = "\"mova
   return "-- A thing.\nreturn object {\n  type = \"cube\", traits = { " + traits + " },\n  " + fields + ",\n}\n";
 }
 
-const std::string kTetrahedron = "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+const std::string kHugeTetrahedron = "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 std::string link(const std::string& name, const std::string& inside) {
   return "<link name='" + name + "'>" + inside + "</link>";
@@ -305,7 +305,7 @@ TEST_CASE("inertias that no body has are put right with a remark, whatever the b
 
 TEST_CASE("what is in millimetres is said at once, with its sizes") {
   const Folder mine;
-  put(mine, "worlds/objects/m.obj", kTetrahedron);
+  put(mine, "worlds/objects/m.obj", kHugeTetrahedron);
   put_task(mine, "take", "is.holding(\"b\")", "thing");
   const auto both = [&](const std::string& fields) {
     put(mine, "worlds/objects/thing.lua", thing(fields));

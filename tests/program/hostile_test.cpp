@@ -28,7 +28,8 @@ Said ran(const Folder& mine, const std::string& tasks = "t") {
 
 std::string told(const Said& said) { return said.out + said.err; }
 
-const std::string kTetrahedron = "v 0 0 0\nv 0.04 0 0\nv 0 0.04 0\nv 0 0 0.04\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+const std::string kSmallTetrahedron =
+    "v 0 0 0\nv 0.04 0 0\nv 0 0.04 0\nv 0 0 0.04\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 }  // namespace
 
@@ -63,8 +64,8 @@ TEST_CASE("models that crash, loop or are formats are refused with file and reas
 
 TEST_CASE("a mesh is found inside the roots, and nowhere else") {
   const Folder mine, elsewhere;
-  put(elsewhere, "m.obj", kTetrahedron);
-  put(mine, "worlds/objects/m.obj", kTetrahedron);
+  put(elsewhere, "m.obj", kSmallTetrahedron);
+  put(mine, "worlds/objects/m.obj", kSmallTetrahedron);
   put(mine, "tasks/t.lua", task_with(""));
   const std::string up = "../../../" + std::filesystem::path(elsewhere.text()).filename().string() + "/m.obj";
   for (const std::string& name : {elsewhere / "m.obj", up, std::string("gone.obj")}) {

@@ -11,7 +11,7 @@ namespace {
 
 const std::string kCube = "{ \"cube\", at = { 0.25, 0, 0.7702 } }";
 
-void put_task(const Folder& mine, const std::string& objects, const std::string& init, const std::string& goal) {
+void put_bad_task(const Folder& mine, const std::string& objects, const std::string& init, const std::string& goal) {
   put(mine, "tasks/t.lua",
       "-- A task that cannot be done.\nreturn task {\n  world = \"tabletop\",\n  objects = { " + objects +
           " },\n  init = { " + init + " },\n  goal = " + goal + ",\n  instructions = { \"do it\" },\n}\n");
@@ -51,8 +51,8 @@ int pictures_in(const std::string& folder) {
 
 TEST_CASE("a thing out of reach: how far, and grey ghosts of the hand") {
   const Folder mine;
-  put_task(mine, "far = { \"tray\", at = { 0.75, 0, 0.75 } }, a = { \"cube\", at = { 0.75, 0, 0.7702 } }", "",
-           "is.lifted(\"a\")");
+  put_bad_task(mine, "far = { \"tray\", at = { 0.75, 0, 0.75 } }, a = { \"cube\", at = { 0.75, 0, 0.7702 } }", "",
+               "is.lifted(\"a\")");
   const Said said = why(mine, {"--pictures", mine / "why"});
   INFO(said.out << said.err);
   CHECK(said.code == kNo);
@@ -71,7 +71,7 @@ TEST_CASE("a thing between walls: what the hand touches, by how much, and red gh
       "for k = 0, 3 do\n  local a = k * math.pi / 2\n"
       "  s[#s + 1] = box { 0.01, 0.07, 0.06, at = { 0.032 * math.cos(a), 0.032 * math.sin(a), 0.03 }, yaw = a }\nend\n"
       "return object { type = \"fixture\", traits = {}, fixed = true, shapes = s }\n");
-  put_task(mine, "walls = { \"walls\", at = { 0.25, 0, 0.75 } }, a = " + kCube, "", "is.lifted(\"a\")");
+  put_bad_task(mine, "walls = { \"walls\", at = { 0.25, 0, 0.75 } }, a = " + kCube, "", "is.lifted(\"a\")");
   const Said said = why(mine, {"--pictures", mine / "why"});
   INFO(said.out << said.err);
   CHECK(said.code == kNo);
@@ -85,7 +85,7 @@ TEST_CASE("a thing between walls: what the hand touches, by how much, and red gh
 TEST_CASE("a place that is too small: by how much, and ghosts of the thing") {
   const Folder mine;
   put_slab(mine, "0.03");
-  put_task(mine, "slab = { \"slab\", at = { 0.25, 0.2, 0.80 } }, a = " + kCube, "", "is.on(\"a\", \"slab\")");
+  put_bad_task(mine, "slab = { \"slab\", at = { 0.25, 0.2, 0.80 } }, a = " + kCube, "", "is.on(\"a\", \"slab\")");
   const Said said = why(mine, {"--pictures", mine / "why"});
   INFO(said.out << said.err);
   CHECK(said.code == kNo);
@@ -97,8 +97,8 @@ TEST_CASE("a place that is too small: by how much, and ghosts of the thing") {
 TEST_CASE("a start that cannot be made: which literal, what is in the way, and a picture") {
   const Folder mine;
   put_slab(mine, "0.07");
-  put_task(mine, "slab = { \"slab\", at = { 0.25, 0.2, 0.80 } }, a = { \"cube\", count = 3 }",
-           "is.on(\"a*\", \"slab\")", "is.lifted(\"a1\")");
+  put_bad_task(mine, "slab = { \"slab\", at = { 0.25, 0.2, 0.80 } }, a = { \"cube\", count = 3 }",
+               "is.on(\"a*\", \"slab\")", "is.lifted(\"a1\")");
   const Said said = why(mine, {"--pictures", mine / "why"});
   INFO(said.out << said.err);
   CHECK(said.code == kNo);
@@ -110,8 +110,8 @@ TEST_CASE("a start that cannot be made: which literal, what is in the way, and a
 
 TEST_CASE("a condition that something else stands in the way of: by how much, without a picture") {
   const Folder mine;
-  put_task(mine, "a = " + kCube + ", b = { \"cube\", at = { 0.25, 0.1, 0.7702 } }", "is.spaced(\"a\", \"b\")",
-           "is.lifted(\"a\")");
+  put_bad_task(mine, "a = " + kCube + ", b = { \"cube\", at = { 0.25, 0.1, 0.7702 } }", "is.spaced(\"a\", \"b\")",
+               "is.lifted(\"a\")");
   const Said said = why(mine, {"--pictures", mine / "why"});
   INFO(said.out << said.err);
   CHECK(says(said.err, "(spaced a b) failed 100 times, by 20 mm at least"));
@@ -124,14 +124,14 @@ TEST_CASE("what an own predicate's sample does wrong, and what nothing makes, is
       "-- Draws nonsense.\nreturn predicate {\n  params = { \"obj: movable\", \"below: support\" },\n"
       "  label = \"the {obj} is beside itself on the {below}\",\n  holds = function() return true end,\n"
       "  sample = function(w, obj) return w:size(obj) + nil end,\n}\n");
-  put_task(mine, "a = { \"cube\" }", "is.beside_itself(\"a\", \"table\")", "is.lifted(\"a\")");
+  put_bad_task(mine, "a = { \"cube\" }", "is.beside_itself(\"a\", \"table\")", "is.lifted(\"a\")");
   const Said wrong = why(mine);
   INFO(wrong.out << wrong.err);
   CHECK(says(wrong.out + wrong.err, "tasks/t.lua:5: (beside_itself a table): worlds/predicates/beside_itself.lua:6"));
   put(mine, "worlds/predicates/polished.lua",
       "-- Never so.\nreturn predicate {\n  params = { \"obj: movable\" }, label = \"the {obj} is polished\",\n"
       "  holds = function() return false end,\n}\n");
-  put_task(mine, "a = " + kCube, "is.polished(\"a\")", "is.lifted(\"a\")");
+  put_bad_task(mine, "a = " + kCube, "is.polished(\"a\")", "is.lifted(\"a\")");
   const Said nothing = why(mine);
   INFO(nothing.out << nothing.err);
   CHECK(says(nothing.err,
@@ -145,7 +145,7 @@ TEST_CASE("a step that found a grasp and failed after that: green ghosts of the 
       "  precondition = { is.hand_empty() }, effect = { is.holding(\"obj\"), is_not.hand_empty() },\n"
       "  continuous = { grasp = stream(\"grasps\") }, label = \"give up\",\n"
       "  run = function(robot) robot:fail(\"no more\") end,\n}\n");
-  put_task(mine, "a = " + kCube, "", "is.lifted(\"a\"), steps = act.give_up(\"a\")");
+  put_bad_task(mine, "a = " + kCube, "", "is.lifted(\"a\"), steps = act.give_up(\"a\")");
   const Said said = why(mine, {"--pictures", mine / "why"});
   INFO(said.out << said.err);
   CHECK(says(said.err, "no more"));
@@ -157,8 +157,8 @@ TEST_CASE("a step that found a grasp and failed after that: green ghosts of the 
 TEST_CASE("what is told does not depend on the number of workers, and without --why nothing is told") {
   const Folder mine;
   put_slab(mine, "0.03");
-  put_task(mine, "slab = { \"slab\", at = { 0.25, 0.2, 0.80 } }, a = { \"cube\" }", "is.on(\"a\", \"table\")",
-           "is.on(\"a\", \"slab\")");
+  put_bad_task(mine, "slab = { \"slab\", at = { 0.25, 0.2, 0.80 } }, a = { \"cube\" }", "is.on(\"a\", \"table\")",
+               "is.on(\"a\", \"slab\")");
   const auto table = [&](const std::string& workers) {
     const Said said = why(mine, {"--workers", workers, "--seed", "5"});
     return said.err.substr(said.err.find("times"));

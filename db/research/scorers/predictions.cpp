@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kPredictedEvery = 40;       // frames
 constexpr std::int64_t kPredicted[] = {1, 5, 20};  // frames after each of them
-constexpr double kMoved = 0.002;                   // m, rad: what rests jitters by less
+constexpr double kMovedBetween = 0.002;            // m, rad: what rests jitters by less
 
 // A row is about a thing, a joint or a fact, and says all that there is to say of it.
 void check_rows(const ScoringJob& job) {
@@ -63,7 +63,7 @@ void score_positions(const ScoringJob& job, const Places& places, std::int64_t h
                           rows.real(i, "z") - from.real(j, z));
       };
       const double moved = distance(rows, i, "bx", "by", "bz");
-      if (std::string(table) == "poses" && moved < kMoved) continue;
+      if (std::string(table) == "poses" && moved < kMovedBetween) continue;
       errors.add(distance(job.answers.rows, row, "x", "y", "z"), moved);
     }
     if (errors.said.count > 0)  // of recordings, nobody knows where things were
@@ -88,7 +88,7 @@ void score_joints(const ScoringJob& job, const Places& places, std::int64_t hori
     const std::size_t row =
         row_about(job, places, {rows.integer(i, "episode"), rows.integer(i, "frame"), rows.text(i, "joint")});
     const double there = rows.real(i, "position"), moved = std::abs(there - rows.real(i, "before"));
-    if (!of_arm && moved < kMoved) continue;
+    if (!of_arm && moved < kMovedBetween) continue;
     (of_arm ? arm : hinge ? hinges : sliders).add(std::abs(job.answers.rows.real(row, "position") - there), moved);
   }
   const std::string on = std::to_string(horizon) + " frames on, ";

@@ -11,7 +11,7 @@ namespace stampede::research {
 namespace {
 
 constexpr std::int64_t kRankedEvery = 10, kPairedEvery = 40;  // frames
-constexpr double kDiscount = 0.99;
+constexpr double kComparedDiscount = 0.99;
 
 // Values of frames and, where the answers have some, rewards of going from a frame to another of the same episode.
 struct Said {
@@ -86,7 +86,8 @@ void add_pairs(const ScoringJob& job, const Said& said, std::int64_t episode, Pa
           said.pairs.empty() ? said_of(job, said.values, episode, next) : job.answers.rows.real(found->second, "value");
     }
   }
-  pairs.there.push_back(canonical_reward(there, kDiscount)), pairs.said.push_back(canonical_reward(here, kDiscount));
+  pairs.there.push_back(canonical_reward(there, kComparedDiscount)),
+      pairs.said.push_back(canonical_reward(here, kComparedDiscount));
 }
 
 }  // namespace

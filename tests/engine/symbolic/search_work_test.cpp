@@ -2,6 +2,7 @@
 // A change that is meant changes the table too: the test leaves the new one beside the old one's name in the build
 // folder.
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <fstream>
 
 #include "engine/base/hash.h"
