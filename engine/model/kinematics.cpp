@@ -133,6 +133,26 @@ Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 16> Arm::jacobian(const JointVect
   return result;
 }
 
+double Arm::greatest_speed(const JointVector& q, const JointVector& velocity, double around) const {
+  Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
+  Transform world_from_joint = world_from_base_;
+  double greatest = 0;
+  const auto go_to = [&](const Transform& next) {
+    const Vector3 way = next.translation() - world_from_joint.translation();
+    linear += angular.cross(way);
+    world_from_joint = next;
+    greatest = std::max(greatest, linear.norm() + around * angular.norm());
+  };
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const auto joint = static_cast<Eigen::Index>(i);
+    go_to(world_from_joint * parent_from_joint_[i]);
+    angular += velocity[joint] * (world_from_joint.linear() * axes_[i]);
+    world_from_joint = world_from_joint * Eigen::AngleAxisd(q[joint], axes_[i]);
+  }
+  go_to(world_from_joint * last_from_tip_);
+  return greatest;
+}
+
 bool Arm::within_limits(const JointVector& q, double margin_rad) const {
   if (q.size() != joints()) return false;
   for (Eigen::Index i = 0; i < q.size(); ++i) {

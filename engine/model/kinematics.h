@@ -36,6 +36,9 @@ class Arm {
   Transform world_from_tip(const JointVector& q) const;
   // Geometric Jacobian of the tip in world axes: rows 0-2 linear (m/rad), 3-5 angular. Shape: 6 x joints.
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 16> jacobian(const JointVector& q) const;
+  // Of what moves: the fastest of all points that are no farther than `around` (m) from a joint or from the tip, if
+  // each link were as thick. m/s.
+  double greatest_speed(const JointVector& q, const JointVector& velocity, double around) const;
   bool within_limits(const JointVector& q, double margin_rad = 0) const;
 
   // Damped least squares (Nakamura, Hanafusa, JDSMC 1986, doi:10.1115/1.3143764) with joint limits and random

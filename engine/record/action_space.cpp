@@ -17,6 +17,7 @@ constexpr double kReach_m = 1.5;                               // of any pose, f
 constexpr double kFarthest_m = 3, kHalfTurn = 3.1416;          // of a path
 constexpr double kLeastStiffness = 10, kMostStiffness = 3000;  // N/m
 constexpr double kSlack = 1e-9;                                // of bounds: a sum of deltas may miss them by a digit
+constexpr double kSinglePrecision = 1.2e-7;  // share of a bound by which it may be missed that was stored as a float
 
 using Components = std::vector<ActionComponent>;
 
@@ -87,7 +88,9 @@ const ActionSpace* named_space(const std::vector<ActionSpace>& spaces, std::stri
 
 std::optional<ActionRefusal> mistake_in_value(const ActionComponent& component, double value) {
   if (!std::isfinite(value)) return ActionRefusal{component.name + " is not a finite number", "give a number"};
-  if (value >= component.lower - kSlack && value <= component.upper + kSlack) return std::nullopt;
+  const auto slack = [](double bound) { return kSlack + kSinglePrecision * std::abs(bound); };
+  if (value >= component.lower - slack(component.lower) && value <= component.upper + slack(component.upper))
+    return std::nullopt;
   return ActionRefusal{component.name + " is out of its bounds: " + number(value) + " " + component.unit,
                        "it goes from " + number(component.lower) + " to " + number(component.upper)};
 }

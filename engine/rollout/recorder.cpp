@@ -60,7 +60,12 @@ FrameRecord FrameReader::read(const WorldView& view) const {
 ActionRecord FrameReader::action(const World& world) const {
   ActionRecord action;
   const JointVector reference = world.reference().position;
-  action.joint_position.assign(reference.data(), reference.data() + reference.size());
+  // A way that ends at a stop may miss it by a hair: what is stored is what an agent may ask for.
+  for (Eigen::Index i = 0; i < reference.size(); ++i) {
+    const JointLimits& limits = world.arm().limits()[static_cast<std::size_t>(i)];
+    const bool limited = limits.lower < limits.upper;
+    action.joint_position.push_back(limited ? std::clamp(reference[i], limits.lower, limits.upper) : reference[i]);
+  }
   action.tool_pose = to_pose(world.arm().world_from_tip(reference));
   action.gripper = world.commanded_opening();
   return action;

@@ -23,7 +23,7 @@ constexpr std::size_t kAtOnce = 2;                    // of the places looked at
 constexpr double kInto = 0.05;                        // cosine to the normal: less is along a surface
 constexpr double kLight_kg = 1;                       // what lies on the arm and is free goes with it
 constexpr double kSlow = 2;                           // times the pace of meeting: faster, it brakes first
-constexpr std::array kPaces{1.0, 0.4, kHoldingPace, kMeetingPace};
+constexpr std::array kPaces{1.0, 0.7, 0.4, kHoldingPace, kMeetingPace};
 // Torques say nothing of where the arm will be: the distance alone counts.
 constexpr std::array<std::pair<double, double>, 3> kClearances{{{0.16, 1.0}, {0.06, 0.4}, {0.02, 0.12}}};  // m, pace
 
@@ -39,7 +39,7 @@ Pairs touched(const CollisionState& state, const JointVector& q, double padding)
 struct Bearing {
   Pairs pairs, lying, joined;  // that bear a force; that touch without; a lid in its thread, with what it is on
   std::set<PartRef> pushed;
-  bool heavy = false;  // something that it touches
+  bool rigid = false;  // something that it touches is neither light nor has a joint
   bool contains(const std::pair<PartRef, PartRef>& pair) const {
     return pairs.contains(pair) || lying.contains(pair) || joined.contains(pair) || pushed.contains(pair.second);
   }
@@ -98,10 +98,9 @@ class Lookout {
   double pace(std::int64_t often) const;
 
  private:
-  bool is_light(PartRef part) const;
+  bool gives_way(PartRef part) const;
   bool meets(PartRef own, PartRef other) const;
   bool presses(const std::vector<JointVector>& way) const;
-  bool slow() const;
   std::vector<JointVector> way_to_a_stand(double pace, std::int64_t led) const;
   Bearing bearing(const Near& near) const;
   void add_contacts(Bearing& bearing) const;
@@ -128,9 +127,10 @@ Lookout::Lookout(const RobotControl& control)
   held_ = state_.held();
 }
 
-bool Lookout::is_light(PartRef part) const {
-  return part.body >= 0 && bodies_.body_slot(part.body).free != nullptr &&
-         bodies_.body(part.body).parts[0].mass < kLight_kg;
+bool Lookout::gives_way(PartRef part) const {
+  if (part.body < 0) return false;
+  const bool light = bodies_.body_slot(part.body).free != nullptr && bodies_.body(part.body).parts[0].mass < kLight_kg;
+  return light || (bodies_.slot(part).tree != nullptr && bodies_.slot(part).dof >= 0);
 }
 
 // Contact of a link, or of what the hand carries, with something else.
@@ -179,7 +179,7 @@ void Lookout::add_contacts(Bearing& bearing) const {
     for (const auto& [own, other] : {std::pair(one.a, one.b), std::pair(one.b, one.a)}) {
       if (!meets(own, other)) continue;
       bearing.pairs.insert({own, other});
-      bearing.heavy = bearing.heavy || !is_light(other);
+      bearing.rigid = bearing.rigid || !gives_way(other);
       if (other.body >= 0 && (bodies_.slot(other).tree != nullptr || bodies_.body_slot(other.body).free != nullptr))
         bearing.pushed.insert(other);
     }
@@ -203,7 +203,7 @@ Bearing Lookout::bearing(const Near& near) const {
   for (const auto& pair : near.touching()) {
     if (bearing.contains(pair)) continue;
     bearing.lying.insert(pair);
-    bearing.heavy = bearing.heavy || !is_light(pair.second);
+    bearing.rigid = bearing.rigid || !gives_way(pair.second);
   }
   return bearing;
 }
@@ -214,24 +214,16 @@ double Lookout::pace_by_distance() const {
   return kMeetingPace;
 }
 
-bool Lookout::slow() const {
-  const std::vector<JointLimits>& limits = control_.arm().limits();
-  const JointVector& velocity = control_.reference_now.velocity;
-  for (Eigen::Index i = 0; i < here_.size(); ++i)
-    if (!(std::abs(velocity[i]) <= kSlow * kMeetingPace * speed_of(limits[static_cast<std::size_t>(i)]))) return false;
-  return true;
-}
-
 double Lookout::pace(std::int64_t often) const {
   const Near near(state_, here_);
   const Bearing bearing = this->bearing(near);
-  const double most = bearing.empty() ? 1 : grasped_ || !bearing.heavy ? kHoldingPace : kMeetingPace;
+  const double most = bearing.empty() ? 1 : grasped_ || !bearing.rigid ? kHoldingPace : kMeetingPace;
   for (const double pace : kPaces) {
     const std::vector<JointVector> way = way_to_a_stand(pace, often);
     if (near.clear(way, bearing) && (pace <= most || (near.leaves(way, bearing) && !presses(way)))) return pace;
   }
   // The way to a stand was seen to be clear at the look before; that of the new action, slowly, need not be.
-  return slow() ? kMeetingPace : 0;
+  return as_slow_as(kSlow * kMeetingPace, control_.arm(), control_.reference_now) ? kMeetingPace : 0;
 }
 
 }  // namespace

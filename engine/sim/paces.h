@@ -4,6 +4,6 @@
 namespace stampede {
 
 constexpr double kMeetingPace = 0.04;  // towards what it will touch, and against what it touches: 6 cm/s of the tip
-constexpr double kHoldingPace = 0.15;  // while what it touches, such as a handle, is in its hand
+constexpr double kHoldingPace = 0.15;  // while what it touches is in its hand or gives way: a handle, a door, a ball
 
 }  // namespace stampede

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/sim/paces.h"
+
 namespace stampede {
 namespace {
 
@@ -13,9 +15,11 @@ constexpr double kUsualSpeed = 2;          // rad/s, where a robot states none
 constexpr double kUsualAcceleration = 10;  // rad/s^2, likewise
 constexpr double kUsualJerk = 5000;        // rad/s^3, likewise
 constexpr double kLongestGap_s = 0.2;      // between positions of a stream
-constexpr double kGentlest = 0.05;         // share of the acceleration
+constexpr double kGentlest = 0.05;         // share of the acceleration that a start may have
+constexpr double kGentle = 20;             // likewise, times the square of the pace
 constexpr double kOver_rad = 0.005;  // as far as a stream that ends at once takes a joint beyond its last position
 constexpr double kAsFast = 1.05;     // share of the limits of speed and acceleration that a stream may have
+constexpr double kThick_m = 0.1;     // of a link, with what it holds
 constexpr double kLeastPull = 1e-9;  // what rounding changes is no limit that acted
 // A motor takes away a small error at this rate: a fifth of it in a step of 1/240 s.
 constexpr double kCatch_s = 1.0 / 48;
@@ -51,7 +55,7 @@ double margin_of(const operation::Servo& servo) { return leads(servo) ? 0 : kMar
 bool limited(const JointLimits& limits) { return limits.lower < limits.upper; }
 
 // The range of velocities that a joint may have at this place; into the margin before its stops it may only be led.
-std::pair<double, double> allowed(double position, const JointLimits& limits, double margin, double pace) {
+std::pair<double, double> allowed(double position, const JointLimits& limits, double margin, double pace = 1) {
   const double most = pace * speed_of(limits), acceleration = acceleration_of(limits);
   if (!limited(limits)) return {-most, most};
   return {-std::min(most, stopping_speed(position - limits.lower - margin, acceleration)),
@@ -94,6 +98,10 @@ double catching_up(double error, double acceleration) {
 
 bool leads(const operation::Servo& servo) {
   return servo.of == operation::Servo::Of::position || servo.of == operation::Servo::Of::passage;
+}
+
+bool as_slow_as(double pace, const Arm& arm, const JointState& now) {
+  return arm.greatest_speed(now.position, now.velocity, kThick_m) <= pace * kToolSpeed;
 }
 
 void Stream::follow(const JointVector& from, const JointVector& to, double seconds,
@@ -146,21 +154,24 @@ JointVector Governor::speeds_wanted(const JointState& now, const Aim& aim) const
   JointVector wanted(aim.servo.value.size());
   double slow = 1;  // share that the pace leaves
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
-    const double most = guard_.pace * speed_of(limits(i)), speed = speed_asked(now, aim, i);
-    const auto [slowest, fastest] = allowed(now.position[i], limits(i), margin_of(aim.servo), 1);
+    const double speed = speed_asked(now, aim, i);
+    const auto [slowest, fastest] = allowed(now.position[i], limits(i), margin_of(aim.servo));
     wanted[i] = std::clamp(speed, slowest, fastest);
     if (std::abs(wanted[i] - speed) > kLeastPull) acted_.note(Limit::speed);
-    // Where it has to be slow it keeps to its way: all joints together.
-    if (std::abs(wanted[i]) > most) slow = std::min(slow, most / std::abs(wanted[i]));
+    const double most = guard_.pace * speed_of(limits(i));
+    if (guard_.pace < kHoldingPace && std::abs(wanted[i]) > most) slow = std::min(slow, most / std::abs(wanted[i]));
     if (guard_.position.size() == 0) continue;
     const double ahead = std::copysign(1.0, wanted[i]) * (now.position[i] - guard_.position[i]);
     if (ahead <= guard_.lead / 2 || wanted[i] == 0) continue;
     acted_.note(Limit::reference);
     wanted[i] *= std::max(0.0, 2 - 2 * ahead / guard_.lead);
   }
+  // What meets something is a point of the arm, and a wrist that turns on the spot meets it slowly; where what it
+  // leans on does not give way, each joint is slow. All joints together: it keeps to its way.
+  const double fastest = guard_.pace < 1 ? arm_.greatest_speed(now.position, wanted, kThick_m) : 0;
+  if (fastest > guard_.pace * kToolSpeed) slow = std::min(slow, guard_.pace * kToolSpeed / fastest);
   if (slow < 1) acted_.note(Limit::approach);
-  wanted *= slow;
-  return slowed(now.position, wanted, guard_.pace);
+  return slowed(now.position, slow * wanted, 1);
 }
 
 // Joints that change their speed each in its own time could make the tool faster than before and after; and as they
@@ -176,7 +187,7 @@ JointVector Governor::together(const JointState& now, const JointVector& wanted,
   if (!(tool_speed(now.position, soon) > kToolSpeed)) return wanted;
   JointVector slower = now.velocity + share * (wanted - now.velocity);
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
-    const auto [slowest, fastest] = allowed(now.position[i], limits(i), margin, 1);
+    const auto [slowest, fastest] = allowed(now.position[i], limits(i), margin);
     slower[i] = std::clamp(slower[i], slowest, fastest);
   }
   slower = slowed(now.position, slower, 1);
@@ -191,7 +202,7 @@ double Governor::acceleration(const JointState& now, double velocity, Eigen::Ind
   double acceleration = std::clamp(asked, -most, most);
   // What is to be slow starts gently too: a stiff arm that is held by something presses as hard as it would start.
   if (std::abs(now.velocity[i] + acceleration * dt_) > std::abs(now.velocity[i])) {
-    const double start = std::max(guard_.pace, kGentlest) * most;
+    const double start = std::clamp(kGentle * guard_.pace * guard_.pace, kGentlest, 1.0) * most;
     acceleration = std::clamp(acceleration, -start, start);
   }
   if (std::abs(acceleration - asked) > kLeastPull / dt_) acted_.note(Limit::acceleration);
@@ -245,7 +256,7 @@ JointVector Governor::safe_acceleration(const JointVector& asked, const JointVec
     const double most = acceleration_of(limits(i));
     if (std::abs(result[i]) > most) acted_.note(Limit::acceleration);
     // To stop before its end, a joint may do more.
-    const auto [slowest, fastest] = allowed(ahead[i], limits(i), margin, 1);
+    const auto [slowest, fastest] = allowed(ahead[i], limits(i), margin);
     result[i] =
         std::clamp(std::clamp(result[i], -most, most), (slowest - velocity[i]) / dt_, (fastest - velocity[i]) / dt_);
   }

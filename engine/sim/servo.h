@@ -41,12 +41,15 @@ constexpr double kMargin_rad = 0.05;
 
 // What a reference must mind beside the limits of the joints.
 struct Guard {
-  double pace = 1;       // the share of joint and tool speeds that it may use
+  double pace = 1;       // the share of the tool's speed that the arm's points may have
   JointVector position;  // of the arm itself; empty: it is on its reference
   double lead = kLead_rad;
 };
 
 bool leads(const operation::Servo& servo);  // to positions
+
+// Whether no point of the arm is faster than this share of the speed that its tool may have.
+bool as_slow_as(double pace, const Arm& arm, const JointState& now);
 
 // Positions that come one after the other as an arm may move are a way: each is passed when the next is due, not
 // stopped at: a passage at any speed, other positions no faster than the arm can stop soon after. Found anew with each

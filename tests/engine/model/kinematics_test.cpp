@@ -1,5 +1,6 @@
 #include "engine/model/kinematics.h"
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <numbers>
 
@@ -98,6 +99,25 @@ TEST_CASE("the Jacobian is the derivative of the tip") {
       REQUIRE((jacobian.col(i).tail<3>() - turn.angle() / (2 * h) * turn.axis()).norm() < 1e-7);
     }
   }
+}
+
+TEST_CASE("the greatest speed of an arm is that of its tip, of an elbow, or of a link that turns on the spot") {
+  const Arm arm(panda_robot());
+  const JointVector q = arm.home();
+  const auto speed = [&](std::initializer_list<double> velocity, double around) {
+    return arm.greatest_speed(q, joints(velocity), around);
+  };
+  CHECK(speed({0, 0, 0, 0, 0, 0, 0}, 0.1) == 0);
+  CHECK(speed({0, 0, 0, 0, 0, 0, 2}, 0.1) == Approx(0.2));  // the tip lies on the last axis
+  CHECK(speed({0, 0, 0, 0, 0, 0, 2}, 0) == Approx(0).margin(1e-12));
+  const JointVector turn = joints({1, 0, 0, 0, 0, 0, 0});
+  CHECK(arm.greatest_speed(q, turn, 0) == Approx((arm.jacobian(q).topRows<3>() * turn).norm()));
+  // The tip stands while the elbow goes: what seven joints can.
+  const Eigen::MatrixXd jacobian = arm.jacobian(q);
+  const Eigen::MatrixXd still = Eigen::FullPivLU<Eigen::MatrixXd>(jacobian).kernel();
+  const JointVector aside = still.col(0).normalized();
+  CHECK((jacobian * aside).norm() < 1e-9);
+  CHECK(arm.greatest_speed(q, aside, 0) > 0.05);
 }
 
 TEST_CASE("limits include their ends, shrink by the margin, and refuse what is not a number") {
