@@ -22,8 +22,9 @@ constexpr double kMoved_rad = 0.001;                  // so far a way's beginnin
 constexpr std::size_t kAtOnce = 2;                    // of the places looked at
 constexpr double kInto = 0.05;                        // cosine to the normal: less is along a surface
 constexpr double kLight_kg = 1;                       // what lies on the arm and is free goes with it
+constexpr double kStop_m = 0.02;                      // so near its stop a door or a button gives way no more
 constexpr double kSlow = 2;                           // times the pace of meeting: faster, it brakes first
-constexpr std::array kPaces{1.0, 0.7, 0.4, kHoldingPace, kMeetingPace};
+constexpr std::array kPaces{1.0, 0.7, 0.4, kYieldingPace, kMeetingPace};
 // Torques say nothing of where the arm will be: the distance alone counts.
 constexpr std::array<std::pair<double, double>, 3> kClearances{{{0.16, 1.0}, {0.06, 0.4}, {0.02, 0.12}}};  // m, pace
 
@@ -39,7 +40,7 @@ Pairs touched(const CollisionState& state, const JointVector& q, double padding)
 struct Bearing {
   Pairs pairs, lying, joined;  // that bear a force; that touch without; a lid in its thread, with what it is on
   std::set<PartRef> pushed;
-  bool rigid = false;  // something that it touches is neither light nor has a joint
+  bool rigid = false;  // something that it touches does not give way
   bool contains(const std::pair<PartRef, PartRef>& pair) const {
     return pairs.contains(pair) || lying.contains(pair) || joined.contains(pair) || pushed.contains(pair.second);
   }
@@ -98,7 +99,8 @@ class Lookout {
   double pace(std::int64_t often) const;
 
  private:
-  bool gives_way(PartRef part) const;
+  bool is_light(PartRef part) const;
+  bool gives_way(PartRef part, const Vector3& point, const Vector3& push) const;
   bool meets(PartRef own, PartRef other) const;
   bool presses(const std::vector<JointVector>& way) const;
   std::vector<JointVector> way_to_a_stand(double pace, std::int64_t led) const;
@@ -127,10 +129,22 @@ Lookout::Lookout(const RobotControl& control)
   held_ = state_.held();
 }
 
-bool Lookout::gives_way(PartRef part) const {
-  if (part.body < 0) return false;
-  const bool light = bodies_.body_slot(part.body).free != nullptr && bodies_.body(part.body).parts[0].mass < kLight_kg;
-  return light || (bodies_.slot(part).tree != nullptr && bodies_.slot(part).dof >= 0);
+bool Lookout::is_light(PartRef part) const {
+  return part.body >= 0 && bodies_.body_slot(part.body).free != nullptr &&
+         bodies_.body(part.body).parts[0].mass < kLight_kg;
+}
+
+// Whether what is pushed at a point, in a direction, goes that way: it is light, or its joint has some way left.
+bool Lookout::gives_way(PartRef part, const Vector3& point, const Vector3& push) const {
+  if (is_light(part)) return true;
+  if (part.body < 0 || bodies_.slot(part).dof < 0) return false;
+  const Joint& joint = bodies_.part(part).joint;
+  const Transform& pose = bodies_.world_from_part(part);
+  const Vector3 axis = pose.linear() * joint.axis.normalized();
+  const bool slides = joint.kind == JointKind::slider;
+  const double lever = push.dot(slides ? axis : Vector3(axis.cross(point - pose.translation())));  // m, of its position
+  const double left = lever > 0 ? joint.upper - bodies_.position(part) : bodies_.position(part) - joint.lower;
+  return left * std::abs(lever) > kStop_m;
 }
 
 // Contact of a link, or of what the hand carries, with something else.
@@ -179,7 +193,8 @@ void Lookout::add_contacts(Bearing& bearing) const {
     for (const auto& [own, other] : {std::pair(one.a, one.b), std::pair(one.b, one.a)}) {
       if (!meets(own, other)) continue;
       bearing.pairs.insert({own, other});
-      bearing.rigid = bearing.rigid || !gives_way(other);
+      const Vector3 push = own == one.a ? Vector3(-one.normal) : one.normal;
+      bearing.rigid = bearing.rigid || !gives_way(other, one.point, push);
       if (other.body >= 0 && (bodies_.slot(other).tree != nullptr || bodies_.body_slot(other.body).free != nullptr))
         bearing.pushed.insert(other);
     }
@@ -203,7 +218,7 @@ Bearing Lookout::bearing(const Near& near) const {
   for (const auto& pair : near.touching()) {
     if (bearing.contains(pair)) continue;
     bearing.lying.insert(pair);
-    bearing.rigid = bearing.rigid || !gives_way(pair.second);
+    bearing.rigid = bearing.rigid || !is_light(pair.second);
   }
   return bearing;
 }
@@ -217,7 +232,7 @@ double Lookout::pace_by_distance() const {
 double Lookout::pace(std::int64_t often) const {
   const Near near(state_, here_);
   const Bearing bearing = this->bearing(near);
-  const double most = bearing.empty() ? 1 : grasped_ || !bearing.rigid ? kHoldingPace : kMeetingPace;
+  const double most = bearing.empty() ? 1 : grasped_ || !bearing.rigid ? kYieldingPace : kMeetingPace;
   for (const double pace : kPaces) {
     const std::vector<JointVector> way = way_to_a_stand(pace, often);
     if (near.clear(way, bearing) && (pace <= most || (near.leaves(way, bearing) && !presses(way)))) return pace;

@@ -159,7 +159,7 @@ JointVector Governor::speeds_wanted(const JointState& now, const Aim& aim) const
     wanted[i] = std::clamp(speed, slowest, fastest);
     if (std::abs(wanted[i] - speed) > kLeastPull) acted_.note(Limit::speed);
     const double most = guard_.pace * speed_of(limits(i));
-    if (guard_.pace < kHoldingPace && std::abs(wanted[i]) > most) slow = std::min(slow, most / std::abs(wanted[i]));
+    if (guard_.pace < kYieldingPace && std::abs(wanted[i]) > most) slow = std::min(slow, most / std::abs(wanted[i]));
     if (guard_.position.size() == 0) continue;
     const double ahead = std::copysign(1.0, wanted[i]) * (now.position[i] - guard_.position[i]);
     if (ahead <= guard_.lead / 2 || wanted[i] == 0) continue;
