@@ -254,7 +254,8 @@ void randomise_light(Light& light, const Randomisation& ranges, RandomKey key) {
 
 void jitter(Camera& camera, const Randomisation& ranges, RandomKey key) {
   Random random(key.with(camera.name));
-  const Vector3 offset = direction(random) * (ranges.camera_position_m * std::cbrt(random.uniform()));
+  const double way = ranges.camera_position_m * std::cbrt(random.uniform());  // evenly in the ball
+  const Vector3 offset = way * direction(random);
   const Vector3 axis = direction(random);
   const double angle = ranges.camera_rotation_rad * random.uniform();
   if (ranges.camera_position_m > 0) camera.mount_from_camera.pretranslate(offset);

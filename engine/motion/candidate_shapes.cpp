@@ -60,11 +60,16 @@ void box_grasps(const Shape& shape, Random& random, Collector& out) {
   }
 }
 
+// One draw after the other: compilers choose the order in which they make the arguments of a call.
+Vector3 drawn_direction(Random& random) {
+  const double z = random.normal(), y = random.normal(), x = random.normal();
+  return {x, y, z};
+}
+
 void sphere_grasps(const Shape& shape, Random& random, Collector& out) {
   constexpr int kDraws = 24;
   for (int k = 0; k < kDraws; ++k) {
-    Vector3 into(random.normal(), random.normal(), random.normal());
-    Vector3 across(random.normal(), random.normal(), random.normal());
+    Vector3 into = drawn_direction(random), across = drawn_direction(random);
     // The first ones look along the axes, so that one of them comes from straight above a sphere at rest.
     if (k < 6) into = (k % 2 == 0 ? 1.0 : -1.0) * axis(k / 2);
     across -= across.dot(into) / into.squaredNorm() * into;

@@ -356,4 +356,26 @@ TEST_CASE("a new robot is made from its URDF, or from a small arm's, and does a 
   CHECK(made("torn").code == kBadInput);
 }
 
+TEST_CASE("a controller that a run names for a skill goes before the run's own, that before the skill's") {
+  const Folder folder;
+  const std::vector<std::string> run = {"run",   "stack_blocks",  "--root",      kRoot,
+                                        "--out", folder / "d.db", "--variation", "height=2"};
+  const auto controllers = [&](const std::vector<std::string>& more) {
+    std::filesystem::remove(folder / "d.db");
+    std::vector<std::string> words = run;
+    words.insert(words.end(), more.begin(), more.end());
+    REQUIRE(say(words).code == kDone);
+    return say({"query", folder / "d.db", "--format", "csv",
+                "SELECT DISTINCT skill, controller FROM segments WHERE kind = 'skill' AND skill IN ('pick', 'stack') "
+                "ORDER BY skill"})
+        .out;
+  };
+  CHECK(controllers({}) == "skill,controller\npick,joint_position\nstack,joint_position\n");
+  const std::vector<std::string> all = {"--controller", "joint_impedance"};
+  CHECK(controllers(all) == "skill,controller\npick,joint_impedance\nstack,joint_impedance\n");
+  const std::vector<std::string> both = {"--controller", "joint_impedance", "--set",
+                                         "pick.controller=cartesian_impedance"};
+  CHECK(controllers(both) == "skill,controller\npick,cartesian_impedance\nstack,joint_impedance\n");
+}
+
 }  // namespace stampede::program

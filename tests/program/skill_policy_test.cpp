@@ -300,10 +300,13 @@ TEST_CASE("the tool stays while the elbow moves away") {
   const SegmentRecord& skill = skill_of(episode);
   const FrameRecord &first = frames.at(static_cast<std::size_t>(skill.span.first_frame)),
                     &last = frames.at(static_cast<std::size_t>(skill.span.end_frame) - 1);
-  CHECK(std::abs(last.joint_position[0] - first.joint_position[0]) > 0.25);
-  for (const FrameRecord& frame : frames)
+  CHECK(last.joint_position[0] - first.joint_position[0] == Approx(0.3).margin(0.02));
+  for (const FrameRecord& frame : frames) {
     for (std::size_t i = 0; i < 3; ++i)
       CHECK(std::abs(frame.hands[0].tip.position[i] - first.hands[0].tip.position[i]) < 3e-3);
+    const Transform turned = to_transform(first.hands[0].tip).inverse() * to_transform(frame.hands[0].tip);
+    CHECK(Eigen::AngleAxisd(turned.linear()).angle() < 0.02);
+  }
 }
 
 }  // namespace stampede::program
