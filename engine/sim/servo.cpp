@@ -168,10 +168,11 @@ JointVector Governor::speeds_wanted(const JointState& now, const Aim& aim) const
   }
   // What meets something is a point of the arm, and a wrist that turns on the spot meets it slowly; where what it
   // leans on does not give way, each joint is slow. All joints together: it keeps to its way.
-  const double fastest = guard_.pace < 1 ? arm_.greatest_speed(now.position, wanted, kThick_m) : 0;
+  if (guard_.pace == 1) return slowed(now.position, wanted, 1);
+  const double fastest = arm_.greatest_speed(now.position, wanted, kThick_m);  // the tool's is no more
   if (fastest > guard_.pace * kToolSpeed) slow = std::min(slow, guard_.pace * kToolSpeed / fastest);
   if (slow < 1) acted_.note(Limit::approach);
-  return slowed(now.position, slow * wanted, 1);
+  return slow * wanted;
 }
 
 // Joints that change their speed each in its own time could make the tool faster than before and after; and as they
