@@ -24,7 +24,7 @@ constexpr double kInto = 0.05;                        // cosine to the normal: l
 constexpr double kLight_kg = 1;                       // what lies on the arm and is free goes with it
 constexpr double kStop_m = 0.02;                      // so near its stop a door or a button gives way no more
 constexpr double kSlow = 2;                           // times the pace of meeting: faster, it brakes first
-constexpr std::array kPaces{1.0, 0.7, 0.4, kYieldingPace, kMeetingPace};
+constexpr std::array kPaces{1.0, 0.7, 0.5, 0.35, kYieldingPace, 0.1, kMeetingPace};
 // Torques say nothing of where the arm will be: the distance alone counts.
 constexpr std::array<std::pair<double, double>, 3> kClearances{{{0.16, 1.0}, {0.06, 0.4}, {0.02, 0.12}}};  // m, pace
 

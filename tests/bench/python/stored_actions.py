@@ -1,4 +1,4 @@
-"""How many demos do their task again by the actions stored with them: stored_actions.py [TASK…] [--demos N] [--seed N]
+"""How many demos do their task again by the actions stored with them: stored_actions.py [TASK…] [--demos N] [--seed N] [--stops]
 
 Makes demos of each task, goes back to the start of each and gives an environment what is stored of each frame, joint
 positions and opening of the hand, as a policy would that knows the data by heart; the last of them up to two seconds on.
@@ -42,7 +42,9 @@ def main() -> None:
     parser.add_argument("tasks", nargs="*", help="default: all")
     parser.add_argument("--demos", type=int, default=3, help="of each task")
     parser.add_argument("--seed", type=int, default=0, help="of the first")
+    parser.add_argument("--stops", action="store_true", help="demos that stand at their via-points")
     options = parser.parse_args()
+    wanted = ["motion.stop_at_vias=1"] if options.stops else []
     total = done = waited = 0
     hardest = 0.0
     folder = tempfile.TemporaryDirectory()
@@ -52,7 +54,7 @@ def main() -> None:
         variations = env.session.variations(name)
         for number in range(options.demos):
             seed = options.seed + number
-            episode = env.session.run(name, variation=variations[number % len(variations)], seed=seed)
+            episode = env.session.run(name, variation=variations[number % len(variations)], seed=seed, set=wanted)
             if not episode.success:
                 print(f"{name} {seed}: no demo: {episode.reason} {episode.detail}".split("\n")[0], flush=True)
                 continue

@@ -146,7 +146,7 @@ class EndEffectorPoseViaPlanning(_EndEffectorPose):
 
     _LINE_M = 0.01  # a frame
     _LINE_RAD = 0.05
-    _HANDLE = 0.4  # of them, with what may be a handle in the hand, which friction alone holds there
+    _HANDLE = 0.2  # of them, with what may be a handle in the hand, which friction alone holds there
 
     def action(self, scene: Scene, action: np.ndarray) -> None:
         target = self._target(scene, checked_shape(action, self.action_shape(scene)))
