@@ -110,12 +110,12 @@ std::optional<std::int64_t> Catalogue::find(std::string_view key) const {
 std::vector<EpisodeSummary> Catalogue::episodes() const {
   std::vector<EpisodeSummary> list;
   sql::Statement statement(impl_->database,
-                           "SELECT id, key, task, coalesce(variation, ''), coalesce(seed, 0), outcome, reason, frames, "
-                           "duration_s FROM episode ORDER BY id");
+                           "SELECT id, key, task, coalesce(variation, ''), coalesce(seed, 0), source = 'real', "
+                           "engine_run, outcome, reason, frames, duration_s FROM episode ORDER BY id");
   for (statement.start(); statement.step();) {
     EpisodeSummary& e = list.emplace_back();
     std::string outcome, reason;
-    statement.read(e.id, e.key, e.task, e.variation, e.seed, outcome, reason, e.frames, e.duration_s);
+    statement.read(e.id, e.key, e.task, e.variation, e.seed, e.real, e.run, outcome, reason, e.frames, e.duration_s);
     e.outcome = known_word(impl_->database, "outcome", outcome, outcome_from(outcome));
     e.reason = known_word(impl_->database, "reason", reason, reason_from(reason));
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,10 +31,26 @@ struct EpisodeSummary {
   std::int64_t id = 0;
   std::string key, task, variation;
   std::int64_t seed = 0;
+  bool real = false;
+  std::string run;  // StoredRun::hash
   Outcome outcome = Outcome::failure;
   Reason reason = Reason::none;
   std::int64_t frames = 0;
   double duration_s = 0;
+};
+
+// All that episodes of one run share and that can alter data.
+struct StoredRun {
+  std::string hash;
+  EngineInfo engine;
+  std::map<std::string, std::string> options;
+  std::vector<DefinitionRecord> definitions;  // by kind, name, hash
+};
+
+// Of all data, whatever the ids: two catalogues of the same episodes agree. Host and wall times are left out.
+struct ContentHashes {
+  std::string whole;
+  std::map<std::int64_t, std::string> episodes;  // by id
 };
 
 // A stored picture or point cloud.
@@ -75,6 +92,7 @@ class Catalogue {
   Catalogue& operator=(Catalogue&&) noexcept;
 
   std::vector<EpisodeSummary> episodes() const;  // by id
+  std::vector<StoredRun> runs() const;           // by hash
   std::optional<std::int64_t> find(std::string_view key) const;
 
   // Everything but object grasps (they are in the scene document) and images (they may be large: see read_image).
@@ -116,8 +134,8 @@ class Catalogue {
   void copy_episodes(const std::filesystem::path& file, const std::vector<std::int64_t>& ids,
                      const std::function<bool(std::int64_t)>& copied);
 
-  // Of all data, whatever the ids: two catalogues of the same episodes agree. Host and wall times are left out.
-  std::string content_hash() const;
+  ContentHashes content_hashes() const;
+  std::string content_hash() const { return content_hashes().whole; }
   std::string episode_hash(std::int64_t id) const;
 
   // `question`: one SELECT, or a query's name. Throws Error with SQLite's complaint, or when it would write.

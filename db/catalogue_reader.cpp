@@ -135,22 +135,42 @@ void EpisodeReader::read_episode() {
   }
 }
 
-void EpisodeReader::read_run() {
-  sql::Statement options(database_,
-                         "SELECT j.key, j.value FROM engine_run r, json_each(r.options) j WHERE r.hash = ?1");
-  for (options.start(run_); options.step();) {
+StoredRun read_stored_run(const sql::Database& database, const std::string& hash) {
+  StoredRun run{hash, {}, {}, {}};
+  sql::Statement engine(database, "SELECT engine_version, numerics FROM engine_run WHERE hash = ?1");
+  if (engine.start(hash).step()) engine.read(run.engine.version, run.engine.numerics);
+  sql::Statement options(database, "SELECT j.key, j.value FROM engine_run r, json_each(r.options) j WHERE r.hash = ?1");
+  for (options.start(hash); options.step();) {
     std::string name, value;
     options.read(name, value);
-    record_.made.options[name] = value;
+    run.options[name] = value;
   }
-  sql::Statement definitions(database_,
+  sql::Statement definitions(database,
                              "SELECT d.kind, d.name, d.path, d.source, d.hash FROM engine_run_definition r "
                              "JOIN definition d USING (kind, name, hash) WHERE r.engine_run = ?1 "
                              "ORDER BY d.kind, d.name, d.hash");
-  for (definitions.start(run_); definitions.step();) {
-    DefinitionRecord& d = record_.made.definitions.emplace_back();
+  for (definitions.start(hash); definitions.step();) {
+    DefinitionRecord& d = run.definitions.emplace_back();
     definitions.read(d.kind, d.name, d.path, d.source, d.hash);
   }
+  return run;
+}
+
+std::vector<StoredRun> Catalogue::runs() const {
+  std::vector<StoredRun> runs;
+  sql::Statement hashes(impl_->database, "SELECT hash FROM engine_run ORDER BY hash");
+  for (hashes.start(); hashes.step();) {
+    std::string hash;
+    hashes.read(hash);
+    runs.push_back(read_stored_run(impl_->database, hash));
+  }
+  return runs;
+}
+
+void EpisodeReader::read_run() {
+  StoredRun run = read_stored_run(database_, run_);
+  record_.made.options = std::move(run.options);
+  record_.made.definitions = std::move(run.definitions);
   sql::Statement predicates(database_, "SELECT name, kind FROM predicate WHERE engine_run = ?1");
   for (predicates.start(run_); predicates.step();) {
     std::string name, kind;

@@ -60,8 +60,9 @@ class EpisodeHasher {
 
 }  // namespace
 
-std::string Catalogue::content_hash() const {
+ContentHashes Catalogue::content_hashes() const {
   const sql::Database& database = impl_->database;
+  ContentHashes hashes;
   Hasher hasher;
   for (const Table& table : data_tables()) {
     if (table.of_episode) continue;
@@ -74,9 +75,10 @@ std::string Catalogue::content_hash() const {
   for (ids.start(); ids.step();) {
     std::int64_t id = 0;
     ids.read(id);
-    hasher.text(episodes.digest(id));
+    hasher.text(hashes.episodes[id] = episodes.digest(id));
   }
-  return hasher.digest();
+  hashes.whole = hasher.digest();
+  return hashes;
 }
 
 std::string Catalogue::episode_hash(std::int64_t id) const { return EpisodeHasher(impl_->database).digest(id); }

@@ -135,6 +135,8 @@ class EpisodeReader {
   std::map<std::int64_t, std::size_t> segment_at_;  // ordinal -> index in record_.labels.segments
 };
 
+StoredRun read_stored_run(const sql::Database& database, const std::string& hash);
+
 // See Catalogue::read_arrays.
 EpisodeArrays read_arrays(const sql::Database& database, std::int64_t id, const ArrayRequest& request);
 

@@ -125,13 +125,15 @@ Observation chosen(const ObservationChoice& choice) {
   return observation;
 }
 
-ObservationChoice observation_of(const EpisodeRecord& episode) {
+ObservationChoice observation_from(const std::map<std::string, std::string>& options) {
   ObservationChoice choice;
   each_option([&](const char* name, auto field, const auto&) {
-    const auto found = episode.made.options.find(std::string(kPrefix) + name);
-    if (found != episode.made.options.end()) read(found->second, choice.*field);
+    const auto found = options.find(std::string(kPrefix) + name);
+    if (found != options.end()) read(found->second, choice.*field);
   });
   return choice;
 }
+
+ObservationChoice observation_of(const EpisodeRecord& episode) { return observation_from(episode.made.options); }
 
 }  // namespace stampede

@@ -45,6 +45,8 @@ void check_observation(const Scene& scene, const Observation& observation);
 
 // Of a finished episode, as its options hold it: what `render` does without further words. Throws Error.
 ObservationChoice observation_of(const EpisodeRecord& episode);
+// What ObservationChoice::as_text says, among other options.
+ObservationChoice observation_from(const std::map<std::string, std::string>& options);
 
 // Pictures that were made, in the order (frame, camera, kind). Beyond a few MB they lie in a temporary file without a
 // name, so a long episode with images takes bounded memory. Lifetime: shared; append from one thread.

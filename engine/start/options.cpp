@@ -2,10 +2,13 @@
 #include "engine/start/options.h"
 
 #include <array>
+#include <charconv>
 #include <sstream>
 
 #include "engine/base/enum_names.h"
 #include "engine/base/hash.h"
+#include "engine/base/text.h"
+#include "engine/record/observation.h"
 #include "engine/start/call_settings.h"
 #include "engine/symbolic/pddl.h"
 
@@ -95,6 +98,43 @@ std::map<std::string, std::string> RunOptions::as_text() const {
     text["cameras"] = content_hash(scene_to_document(scene));
   }
   return text;
+}
+
+RunOptions options_from(const std::map<std::string, std::string>& text) {
+  RunOptions options;
+  const auto with = [&](const char* name, const auto& take) {
+    if (const auto found = text.find(name); found != text.end()) take(found->second);
+  };
+  const auto number = [&](const char* name, auto& value) {
+    with(name, [&](const std::string& told) { std::from_chars(told.data(), told.data() + told.size(), value); });
+  };
+  with("on_failure", [&](const auto& told) { options.on_failure = on_failure_from(told).value_or(OnFailure::undo); });
+  number("tries_per_skill", options.tries_per_skill);
+  number("tries_per_episode", options.tries_per_episode);
+  number("plans", options.plans);
+  number("draws", options.draws);
+  with("controller", [&](const auto& told) { options.controller = told; });
+  with("motion_planner", [&](const auto& told) { options.motion_planner = told; });
+  with("set", [&](const auto& told) {
+    for (const std::string& one : split(told, ' ')) add_skill_setting(one, options.set, "set");
+  });
+  with("where", [&](const auto& told) { options.where = formula_from_pddl(told, "where"); });
+  with("goal", [&](const auto& told) { options.goal = formula_from_pddl(told, "goal"); });
+  with("behaviour", [&](const auto& told) { options.behaviour = behaviour_from(told).value_or(Behaviour::plan); });
+  number("skills", options.skills);
+  number("physics_hz", options.physics_hz);
+  number("frame_hz", options.frame_hz);
+  number("horizon_s", options.horizon_s);
+  options.observation = observation_from(text);
+  with("randomise", [&](const auto&) { options.randomise = default_randomisation(); });
+  with("perturb", [&](const auto& told) { options.perturb = perturbation_from(told, "perturb"); });
+  const std::map<std::string, std::string> again = options.as_text();
+  for (const auto& [name, told] : text) {
+    const auto found = again.find(name);
+    if (found == again.end() || found->second != told)
+      throw Error("", "of the option '" + name + "' the catalogue keeps too little to use it again");
+  }
+  return options;
 }
 
 }  // namespace stampede

@@ -96,4 +96,8 @@ struct RunOptions {
   std::map<std::string, std::string> as_text() const;
 };
 
+// The options of which as_text() says this. Throws Error, by its name, for one of which the text says too little to
+// have it again: cameras, sentences, sensors and policies of a program, a planner, ranges of its own.
+RunOptions options_from(const std::map<std::string, std::string>& text);
+
 }  // namespace stampede

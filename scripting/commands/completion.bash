@@ -1,6 +1,6 @@
 # bash completion of stampede: source this file
 _stampede() {
-  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge export import paraphrase questions dataset baseline score replay render new doc --help --version"
+  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge lock make verify export import paraphrase questions dataset baseline score replay render new doc --help --version"
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
     list) words="--sheet --hash --force --root --path --json --help" ;;
     check) words="--physics --why --pictures --episodes --seed --randomise --workers --force --root --path --json --help" ;;
@@ -11,6 +11,9 @@ _stampede() {
     validate) words="--root --path --json --help" ;;
     query) words="--format --list --views --datasette --hash --root --path --json --help" ;;
     merge) words="--root --path --json --help" ;;
+    lock) words="--root --path --json --help" ;;
+    make) words="--out --workers --shard --anyway --root --path --json --help" ;;
+    verify) words="--root --path --json --help" ;;
     export) words="--out --episode --known --dialect --mapping --frame --leave-out --force --root --path --json --help" ;;
     import) words="--task --world --mapping --episodes --seed --out --frame-hz --workers --episode --root --path --json --help" ;;
     paraphrase) words="--variation --seed --count --each --grain --level --dry-run --show-refused --out --url --model --timeout --retries --rate --price-in --price-out --root --path --json --help" ;;

@@ -8,6 +8,14 @@
 
 namespace stampede::program {
 
+Shard shard_option(const Arguments& arguments) {
+  try {
+    return shard_from(arguments.text("--shard"));
+  } catch (const Error& error) {
+    throw UsageError(error.where() + ": " + error.message(), error.hint());
+  }
+}
+
 JobRequest job_request(const Arguments& arguments, Split split) {
   JobRequest request;
   request.tasks = arguments.list("TASK");
@@ -15,8 +23,8 @@ JobRequest job_request(const Arguments& arguments, Split split) {
   request.first_seed = arguments.integer("--seed").value_or(split == Split::test ? kFirstTestSeed : 0);
   if (request.first_seed > kLargestSeed) throw UsageError(fmt::format("--seed is at most {}", kLargestSeed));
   request.variation = arguments.text("--variation");
+  if (arguments.has("--shard")) request.shard = shard_option(arguments);
   try {
-    if (arguments.has("--shard")) request.shard = shard_from(arguments.text("--shard"));
     check_split(split, request.first_seed, request.first_seed + request.episodes - 1);
   } catch (const Error& error) {
     throw UsageError(error.where() + ": " + error.message(), error.hint());

@@ -11,6 +11,9 @@
 
 namespace stampede::program {
 
+// What --shard says. Throws UsageError.
+Shard shard_option(const Arguments& arguments);
+
 // Of TASK, --episodes, --seed, --variation and, where the command has it, --shard. Throws UsageError.
 JobRequest job_request(const Arguments& arguments, Split split);
 

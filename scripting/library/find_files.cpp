@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::array<std::string_view, 10> kKindNames{"task",  "skill", "predicate", "object", "world",
+                                                      "robot", "types", "colours",   "words",  "module"};
 constexpr std::uintmax_t kLargest = 1u << 20;  // bytes of one file
 
 struct Home {
@@ -92,19 +94,10 @@ struct Folder {  // a root
 };
 
 // One that cannot be read is a file without a text: what is wrong with it is a mistake of that file alone.
-void read_file(const Folder& folder, const fs::path& path, std::map<std::string, ScriptFile>& files,
-               std::vector<Error>& complaints) {
-  const auto& [place, root, real_root] = folder;
-  ScriptFile file;
-  file.path = path;
-  file.root = place;
-  file.shown_path = path.lexically_relative(root).generic_string();
-  file.kind = kind_of(file.shown_path);
-  file.name = path.stem().string();
-  if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours || file.kind == DefinitionKind::words)
-    stand_beside(root, files, file);
+template <typename Source>
+void take_source(ScriptFile& file, const Source& source, std::vector<Error>& complaints) {
   try {
-    file.source = source_of(real_root, path, file.shown_path);
+    file.source = source();
     file.description = description_of(file.source);
     file.hash = content_hash(file.source);
     file.bytecode = Sandbox::compile(file.source, file.shown_path);
@@ -117,16 +110,60 @@ void read_file(const Folder& folder, const fs::path& path, std::map<std::string,
                                   ? "its brackets and blocks are nested too deep: at most 200"
                                   : error.hint());
   }
+}
+
+// Of those that belong to every task's domain.
+bool is_shared(DefinitionKind kind) {
+  using enum DefinitionKind;
+  return kind == skill || kind == predicate || kind == types || kind == colours || kind == module;
+}
+
+void read_file(const Folder& folder, const fs::path& path, bool shared_too, std::map<std::string, ScriptFile>& files,
+               std::vector<Error>& complaints) {
+  const auto& [place, root, real_root] = folder;
+  ScriptFile file;
+  file.path = path;
+  file.root = place;
+  file.shown_path = path.lexically_relative(root).generic_string();
+  file.kind = kind_of(file.shown_path);
+  file.name = path.stem().string();
+  if (!shared_too && is_shared(file.kind)) return;
+  if (file.kind == DefinitionKind::types || file.kind == DefinitionKind::colours || file.kind == DefinitionKind::words)
+    stand_beside(root, files, file);
+  take_source(
+      file, [&] { return source_of(real_root, path, file.shown_path); }, complaints);
   file.replaces = files.contains(file.shown_path);
   files[file.shown_path] = std::move(file);
 }
 
+// It lies where the last folder has a file of its name, or else in the first.
+ScriptFile given_file(const Roots& roots, const GivenScript& given, std::vector<Error>& complaints) {
+  ScriptFile file;
+  for (std::size_t place = roots.folders.size(); place-- > 0;) {
+    file.root = place;
+    file.path = roots.folders[place] / given.shown_path;
+    std::error_code code;
+    if (fs::exists(file.path, code)) break;
+  }
+  file.shown_path = given.shown_path;
+  file.name = given.name;
+  file.kind = given.kind;
+  take_source(
+      file,
+      [&] {
+        require_text(given.source, file.shown_path);
+        return given.source;
+      },
+      complaints);
+  return file;
+}
+
 }  // namespace
 
-std::string_view to_string(DefinitionKind kind) {
-  constexpr std::array<std::string_view, 10> kNames{"task",  "skill", "predicate", "object", "world",
-                                                    "robot", "types", "colours",   "words",  "module"};
-  return enum_name(kNames, kind);
+std::string_view to_string(DefinitionKind kind) { return enum_name(kKindNames, kind); }
+
+std::optional<DefinitionKind> definition_kind_from(std::string_view name) {
+  return enum_from<DefinitionKind>(kKindNames, name);
 }
 
 std::vector<ScriptFile> find_files(const Roots& roots, std::vector<Error>& complaints) {
@@ -141,8 +178,10 @@ std::vector<ScriptFile> find_files(const Roots& roots, std::vector<Error>& compl
     }
     const Folder folder{place, root, fs::canonical(root, code)};
     for (const char* home : {"tasks", "skills", "worlds"})
-      for (const fs::path& path : lua_files(root, home)) read_file(folder, path, files, complaints);
+      for (const fs::path& path : lua_files(root, home))
+        read_file(folder, path, roots.given.empty(), files, complaints);
   }
+  for (const GivenScript& given : roots.given) files[given.shown_path] = given_file(roots, given, complaints);
   std::vector<ScriptFile> result;
   for (auto& [path, file] : files) result.push_back(std::move(file));
   std::stable_sort(result.begin(), result.end(), [](const ScriptFile& a, const ScriptFile& b) {

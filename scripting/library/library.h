@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ namespace stampede {
 
 enum class DefinitionKind { task, skill, predicate, object, world, robot, types, colours, words, module };
 std::string_view to_string(DefinitionKind kind);
+std::optional<DefinitionKind> definition_kind_from(std::string_view name);
 
 // The smallest file of a kind that passes `check` beside our worlds and predicates (for `stampede new`).
 // Throws Error for a bad name, with a sound one as cure.
@@ -48,9 +50,19 @@ class LibraryError : public Error {
   std::vector<Error> errors_;
 };
 
+// A script that does not come from a folder: what a lock holds.
+struct GivenScript {
+  DefinitionKind kind = DefinitionKind::task;
+  std::string name, shown_path, source;
+};
+
 // Later roots win over earlier ones, file by file: `--root` first, then each `--path`.
 struct Roots {
   std::vector<std::filesystem::path> folders;
+  // Where there are some, they go before those of the folders, and of what every task is made of (skills, predicates,
+  // types, colours, modules) there are no others. What they read beside them (meshes, robot descriptions) is where a
+  // folder has it.
+  std::vector<GivenScript> given = {};
 };
 
 // Immutable after load and shared by all workers.

@@ -94,6 +94,7 @@ Shard shard_from(const std::string& text) {
 }
 
 JobList::JobList(const Library& library, const JobRequest& request) : shard_(request.shard) {
+  std::vector<SeedStrand> strands;
   for (const std::string& name : std::set<std::string>(request.tasks.begin(), request.tasks.end())) {
     const Library::TaskInfo& task = task_info(library, name);
     std::vector<std::string> variations = shuffled(task.variation_texts, name);
@@ -104,15 +105,28 @@ JobList::JobList(const Library& library, const JobRequest& request) : shard_(req
     }
     const auto stride = static_cast<std::int64_t>(variations.size());
     for (std::int64_t i = 0; i < std::min(stride, request.episodes); ++i)
-      strands_.push_back({name, variations[static_cast<std::size_t>(i)], request.first_seed + i, stride});
+      strands.push_back({name, variations[static_cast<std::size_t>(i)], request.first_seed + i, stride,
+                         (request.episodes - i + stride - 1) / stride});
   }
-  std::sort(strands_.begin(), strands_.end(), [](const Strand& a, const Strand& b) {
-    return std::tie(a.task, a.variation) < std::tie(b.task, b.variation);
-  });
-  for (Strand& strand : strands_) {
-    strand.begin = whole_;
-    const std::int64_t left = request.episodes - (strand.first_seed - request.first_seed);
-    whole_ += (left + strand.stride - 1) / strand.stride;
+  arrange(std::move(strands));
+}
+
+JobList::JobList(const Library& library, std::vector<SeedStrand> strands, Shard shard) : shard_(shard) {
+  for (const SeedStrand& strand : strands) {
+    const std::vector<std::string>& known = task_info(library, strand.task).variation_texts;
+    if (std::ranges::find(known, strand.variation) == known.end())
+      throw Error("", "task '" + strand.task + "' has no variation '" + strand.variation + "'",
+                  did_you_mean(strand.variation, known));
+  }
+  arrange(std::move(strands));
+}
+
+void JobList::arrange(std::vector<SeedStrand> strands) {
+  std::ranges::sort(strands);
+  for (SeedStrand& strand : strands) {
+    const std::int64_t count = strand.count;
+    strands_.push_back({std::move(strand), whole_});
+    whole_ += count;
   }
 }
 

@@ -35,6 +35,13 @@ struct JobRequest {
   Shard shard = {};
 };
 
+// Episodes of one variation: seeds first_seed, first_seed + stride …
+struct SeedStrand {
+  std::string task, variation;
+  std::int64_t first_seed = 0, stride = 1, count = 1;
+  friend auto operator<=>(const SeedStrand&, const SeedStrand&) = default;
+};
+
 // Episode i of a task has seed first_seed + i and variation i mod V of a shuffle that depends on the task alone. The
 // list is sorted by task, variation, seed: the order in which they are stored. A task named twice counts once.
 // Each job is worked out when it is asked for, so a list of a million takes the memory of its variations.
@@ -42,16 +49,17 @@ class JobList {
  public:
   // Throws Error for unknown tasks and for a variation that no task's axes have, with the nearest as cure.
   JobList(const Library& library, const JobRequest& request);
+  // These, and no others. Throws Error for tasks and variations that the library does not have.
+  JobList(const Library& library, std::vector<SeedStrand> strands, Shard shard = {});
   std::int64_t size() const;
   EpisodeJob operator[](std::int64_t index) const;
   std::vector<EpisodeJob> first_of_each_task() const;
 
  private:
-  struct Strand {  // the episodes of one variation: seeds first_seed, first_seed + stride …
-    std::string task, variation;
-    std::int64_t first_seed = 0, stride = 1;
+  struct Strand : SeedStrand {
     std::int64_t begin = 0;  // place of the first in the whole run
   };
+  void arrange(std::vector<SeedStrand> strands);
   const Strand& strand_at(std::int64_t place) const;
   std::vector<Strand> strands_;
   std::int64_t whole_ = 0;  // episodes of all shards

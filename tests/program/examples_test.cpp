@@ -1,4 +1,5 @@
 // Every example of a help text is run as it stands, but for how much of it and where.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
@@ -37,6 +38,17 @@ void shorten(std::vector<std::string>& words) {
       {"--episodes", "1"}, {"--workers", "1"}, {"--skills", "2"}, {"--size", "32x32"}, {"--cell", "32x32"}};
   for (std::size_t i = 0; i + 1 < words.size(); ++i)
     if (const auto found = least.find(words[i]); found != least.end()) words[i + 1] = found->second;
+}
+
+// As a shell does where a word is `>`.
+Said say_into_file(std::vector<std::string> words) {
+  const auto into = std::ranges::find(words, ">");
+  if (into == words.end()) return say(words);
+  const std::string file = *std::next(into);
+  words.erase(into, into + 2);
+  const Said said = say(words);
+  std::ofstream(file, std::ios::binary) << said.out;
+  return said;
 }
 
 // A folder with what examples name: a catalogue, PDDL files, a BDDL problem. The current one while it lives.
@@ -104,7 +116,7 @@ TEST_CASE("every example of every help text runs") {
       const bool writes = command.name == "new" || command.name == "doc";  // nothing of ours, by a test
       if (writes && !own)
         for (const char* more : {"--path", "my_tasks"}) words.emplace_back(more);
-      const Said said = say(words);
+      const Said said = say_into_file(words);
       INFO(example << "\n" << said.err);
       const bool drawn = example.find("--behaviour random") != std::string::npos;  // reaches its goal by chance
       CHECK((said.code == kDone || (drawn && said.code == kNo)));
