@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "db/catalogue.h"
 #include "db/catalogue_impl.h"
@@ -39,6 +41,44 @@ void copy_shared(const sql::Database& from, const sql::Database& to) {
     if (is_shared(table)) TableCopier(from, to, table).copy_shared();
 }
 
+// What the episodes of files were made with: each may hold several versions, two must not differ.
+class Making {
+ public:
+  // Throws CatalogueError where this file and one before were made differently.
+  void add(const Catalogue& catalogue, const std::string& file) {
+    std::map<std::string, std::set<std::string>> scripts;
+    std::set<std::string> releases, numerics;
+    for (const StoredRun& run : catalogue.runs()) {
+      releases.insert(run.engine.version);
+      numerics.insert(run.engine.numerics);
+      for (const DefinitionRecord& script : run.definitions) scripts[script.path].insert(script.hash);
+    }
+    if (!releases.empty()) {
+      check(file, "", releases, "of another release");
+      check(file, "\n", numerics, "by another build, or on another class of processor,");
+    }
+    for (const auto& [path, hashes] : scripts) check(file, path, hashes, "of another version of " + path);
+  }
+
+ private:
+  void check(const std::string& file, const std::string& what, const std::set<std::string>& own,
+             const std::string& how) {
+    const auto& [other, known] = made_.try_emplace(what, file, own).first->second;
+    if (std::ranges::includes(known, own) || std::ranges::includes(own, known)) return;
+    throw CatalogueError(file, "its episodes were made " + how + " than those of " + other,
+                         "make those of one of the two again, or say --mixed");
+  }
+  std::map<std::string, std::pair<std::string, std::set<std::string>>> made_;  // by what: first file, versions
+};
+
+std::vector<std::string> own_tables(const Catalogue& catalogue) {
+  const QueryResult tables =
+      catalogue.query("SELECT name FROM pragma_table_list WHERE schema = 'main' AND name GLOB 'own_*' ORDER BY 1");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < tables.rows.size(); ++i) names.push_back(tables.text(i, "name"));
+  return names;
+}
+
 }  // namespace
 
 void Catalogue::copy_episodes(const fs::path& file, const std::vector<std::int64_t>& ids,
@@ -70,7 +110,7 @@ void Catalogue::copy_episodes(const fs::path& file, const std::vector<std::int64
   }
 }
 
-MergeResult merge(const fs::path& into, const std::vector<fs::path>& from, const std::atomic<bool>* stop) {
+MergeResult merge(const fs::path& into, const std::vector<fs::path>& from, const MergeOptions& options) {
   std::error_code ignored;
   std::vector<Source> sources;
   for (const fs::path& path : from) {
@@ -81,15 +121,19 @@ MergeResult merge(const fs::path& into, const std::vector<fs::path>& from, const
   // The keys and, where two have the same, the content of all files are known before anything is written.
   KnownKeys keys;
   std::optional<Source> before;
+  Making making;
   if (!Catalogue::is_new(into)) {
     before.emplace(into);
     keys.own(before->catalogue, into);
+    if (!options.mixed) making.add(before->catalogue, into.string());
   }
   MergeResult result;
   std::vector<std::vector<std::int64_t>> fresh;
   for (const Source& source : sources) {
     MergedFile& file = result.files.emplace_back();
     file.path = source.path.string();
+    file.own_tables = own_tables(source.catalogue);
+    if (!options.mixed) making.add(source.catalogue, file.path);
     fresh.push_back(keys.add(source.catalogue, source.path, file.existing));
   }
   before.reset();
@@ -97,7 +141,7 @@ MergeResult merge(const fs::path& into, const std::vector<fs::path>& from, const
   for (std::size_t i = 0; i < sources.size() && !result.interrupted; ++i)
     catalogue.copy_episodes(sources[i].path, fresh[i], [&](std::int64_t copied) {
       result.files[i].added = copied;
-      result.interrupted = stop != nullptr && stop->load();
+      result.interrupted = options.stop != nullptr && options.stop->load();
       return !result.interrupted;
     });
   catalogue.close();

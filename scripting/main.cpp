@@ -33,8 +33,8 @@ void end_late_ones(std::chrono::milliseconds patience) {
   std::this_thread::sleep_for(patience);
   stampede::remove_leftovers();
   constexpr std::string_view kSaid = "interrupted\n";
-  if (write(STDERR_FILENO, kSaid.data(), kSaid.size()) < 0) _exit(stampede::program::kNo);
-  _exit(stampede::program::kNo);
+  [[maybe_unused]] const auto told = write(STDERR_FILENO, kSaid.data(), kSaid.size());
+  _exit(stampede::program::kInterrupted);
 }
 
 // Those that store are given time to store what is finished.

@@ -10,7 +10,7 @@ _stampede() {
     plan) words="--variation --seed --pddl --task-sized --bddl --leave-out --where --goal --k --expansions --planner --root --path --json --help" ;;
     validate) words="--root --path --json --help" ;;
     query) words="--format --list --views --datasette --hash --root --path --json --help" ;;
-    merge) words="--root --path --json --help" ;;
+    merge) words="--mixed --root --path --json --help" ;;
     lock) words="--root --path --json --help" ;;
     make) words="--out --workers --shard --anyway --root --path --json --help" ;;
     verify) words="--root --path --json --help" ;;

@@ -142,7 +142,7 @@ ExitCode do_evaluate(const Arguments& arguments, Console& console) {
   }
   if (!evaluation.interrupted) return kDone;
   console.err << "interrupted: what had ended is in the table and in " << out << "\n";
-  return kNo;
+  return kInterrupted;
 }
 
 }  // namespace

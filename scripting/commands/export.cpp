@@ -48,7 +48,8 @@ ExitCode do_export(const Arguments& arguments, Console& console) {
     console.out << fmt::format("{}: {} files, {} left out{}\n", arguments.text("--out"), count.files, count.left_out,
                                what == "recording" ? "" : "; index.csv lists all");
   }
-  return console.stopped() || count.files == 0 ? kNo : kDone;
+  if (console.stopped()) return kInterrupted;
+  return count.files == 0 ? kNo : kDone;
 }
 
 }  // namespace

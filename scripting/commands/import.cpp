@@ -226,7 +226,8 @@ ExitCode import_problem(const Arguments& arguments, Console& console) {
   print(judged, path, imported, arguments.flag("--json"), console);
   const bool none =
       std::none_of(judged.begin(), judged.end(), [](const Judged& one) { return one.outcome == Outcome::success; });
-  return interrupted || (none && *arguments.integer("--episodes") > 0) ? kNo : kDone;
+  if (interrupted) return kInterrupted;
+  return none && *arguments.integer("--episodes") > 0 ? kNo : kDone;
 }
 
 // Options that belong to one kind.

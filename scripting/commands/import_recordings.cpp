@@ -111,7 +111,7 @@ ExitCode import_recordings(const Arguments& arguments, Console& console) {
   catalogue.close();
   if (arguments.flag("--json")) print_json(all, console);
   if (console.stopped()) console.err << "interrupted: what is stored stays, and the same command goes on from there\n";
-  return console.stopped() ? kNo : kDone;
+  return console.stopped() ? kInterrupted : kDone;
 }
 
 ExitCode import_labels(const Arguments& arguments, Console& console) {

@@ -80,7 +80,7 @@ ExitCode do_make(const Arguments& arguments, Console& console) {
   const Made made = make_all(lock, arguments, whole ? Shard() : shard_option(arguments), console);
   if (made.interrupted) {
     console.err << "interrupted: the same command goes on from there\n";
-    return kNo;
+    return kInterrupted;
   }
   if (!arguments.flag("--json")) {
     console.out << fmt::format("{}: {} episodes made", out, made.finished);

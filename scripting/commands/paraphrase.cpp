@@ -83,7 +83,8 @@ class Asker {
     }
     finish();
     if (interrupted_) console_.err << "interrupted: what is done is kept; the same command goes on from there\n";
-    return interrupted_ || (total_.asked > 0 && total_.received == 0) ? kNo : kDone;
+    if (interrupted_) return kInterrupted;
+    return total_.asked > 0 && total_.received == 0 ? kNo : kDone;
   }
 
  private:

@@ -68,7 +68,7 @@ ExitCode answer(const Arguments& arguments, RowWriter& writer, Console& console)
   } catch (const std::exception&) {
     if (!console.stopped()) throw;
     console.err << "interrupted: the question was not answered to its end\n";
-    return kNo;
+    return kInterrupted;
   }
   writer.finish();
   return kDone;

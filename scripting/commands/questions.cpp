@@ -58,7 +58,7 @@ class Questioner {
     }
     if (console_.stopped()) {
       console_.err << "interrupted: nothing is written\n";
-      return kNo;
+      return kInterrupted;
     }
     file.finish();
     report(out);

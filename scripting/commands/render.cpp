@@ -264,7 +264,8 @@ class Rendering {
     text_.end().field("pictures", pictures_).field("skipped", skipped_).field("interrupted", interrupted);
     if (json_) console_.out << text_.end().text();
     if (interrupted) console_.err << fmt::format("interrupted: {} of {} episodes are drawn\n", done_, asked);
-    return interrupted || done_ == without_ ? kNo : kDone;
+    if (interrupted) return kInterrupted;
+    return done_ == without_ ? kNo : kDone;
   }
 
   const Arguments& arguments_;

@@ -138,7 +138,8 @@ ExitCode render_overlays(const Arguments& arguments, const RenderRequest& reques
     json.end().end();
   }
   if (arguments.flag("--json")) console.out << json.end().end().text();
-  return request.stopped() || done == 0 ? kNo : kDone;
+  if (request.stopped()) return kInterrupted;
+  return done == 0 ? kNo : kDone;
 }
 
 }  // namespace stampede::program

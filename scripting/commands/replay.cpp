@@ -42,7 +42,7 @@ ExitCode do_replay(const Arguments& arguments, Console& console) {
   JsonText text;
   text.object().field("numerics_agree", agree).key("episodes").array();
   for (const std::int64_t id : wanted_episodes(catalogue, arguments)) {
-    if (console.stopped()) return kNo;
+    if (console.stopped()) return kInterrupted;
     const EpisodeRecord episode = catalogue.read_episode(id);
     if (episode.real) {
       ++real;

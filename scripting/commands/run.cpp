@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 #include <utility>
 
@@ -73,6 +74,15 @@ void print_answer(const RunTally& tally, const std::string& out, bool json, Cons
   console.out << text.end().end().text();
 }
 
+// The same answer where all episodes were there already.
+bool any_success(const std::string& file, const std::vector<std::string>& tasks) {
+  const Catalogue catalogue = Catalogue::open(file);
+  return std::ranges::any_of(tasks, [&](const std::string& task) {
+    const QueryOptions of{{task}, 1};
+    return !catalogue.query("SELECT 1 FROM demos WHERE task = ?1 LIMIT 1", of).rows.empty();
+  });
+}
+
 ExitCode do_run(const Arguments& arguments, Console& console) {
   RunSettings settings;
   settings.options = run_options(arguments);
@@ -112,9 +122,9 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
     console.err << fmt::format(
         "interrupted: {} of {} episodes are in {}; {}\n", tally.done(), tally.total, out,
         acting ? "the same command acts in all of them again" : "the same command goes on from there");
-    return kNo;
+    return kInterrupted;
   }
-  return tally.finished > 0 && tally.succeeded == 0 ? kNo : kDone;
+  return tally.total == 0 || tally.succeeded > 0 || any_success(out, request.tasks) ? kDone : kNo;
 }
 
 std::vector<OptionRow> own_options() {
@@ -173,8 +183,10 @@ CommandRow run_command() {
       "Run tasks and store every episode in a catalogue",
       "Episode i of a task has seed S+i and goes through the task's variations in a fixed shuffled order. Episodes "
       "that the catalogue has already are not run again: the same command goes on where it was interrupted. "
-      "Ctrl-C keeps what is finished. Good and bad episodes are stored alike; the exit code is 1 when none "
-      "succeeded or the run was interrupted. What is said about pictures goes before what a task or world says in "
+      "Ctrl-C keeps what is finished, and the exit code is then 6. Good and bad episodes are stored alike; it is 1 "
+      "when "
+      "the catalogue has no successful one of these tasks. What is said about pictures goes before what a task or "
+      "world says in "
       "`observe`; `stampede render` makes the same pictures later. With --where the start is drawn until it holds, "
       "with "
       "--goal another goal is planned for; both speak of the objects, predicates, traits and attributes that "

@@ -251,7 +251,7 @@ ExitCode run_program(const std::vector<CommandRow>& commands, const std::vector<
   } catch (const Error& error) {
     return complain("", error.what(), kBadInput, console);
   } catch (const Interrupted&) {
-    return complain("", "interrupted", kNo, console);
+    return complain("", "interrupted", kInterrupted, console);
   } catch (const std::exception& error) {
     return complain("stampede: a bug of ours: ", error.what(), kBug, console);
   }

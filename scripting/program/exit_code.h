@@ -10,6 +10,7 @@ enum ExitCode : int {
   kBadInput = 3,     // a script or another input file is wrong
   kCatalogue = 4,    // the catalogue cannot be used
   kBudgetSpent = 5,  // a budget ran out before there was an answer
+  kInterrupted = 6,  // somebody stopped it; what is finished is kept
   kBug = 70          // our mistake
 };
 

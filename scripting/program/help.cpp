@@ -52,7 +52,7 @@ std::vector<Row> option_rows(const std::vector<OptionRow>& options) {
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 ran and the answer is no; 2 usage; 3 bad input file; 4 catalogue;\n"
-    "5 budget spent; 70 a bug of ours.\n";
+    "5 budget spent; 6 interrupted; 70 a bug of ours.\n";
 
 }  // namespace
 

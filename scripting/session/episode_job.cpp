@@ -85,12 +85,16 @@ Shard shard_from(const std::string& text) {
   if (slash == std::string::npos || !number(all.substr(0, slash), shard.index) ||
       !number(all.substr(slash + 1), shard.count))
     throw Error("--shard", "'" + text + "' is no shard", "write I/N, such as 2/8: the second of eight parts");
-  if (shard.count < 1) throw Error("--shard", "a run has at least one part, not " + std::to_string(shard.count));
-  if (shard.index < 1 || shard.index > shard.count)
-    throw Error("--shard", "there is no part " + text,
-                "parts count from 1/" + std::to_string(shard.count) + " to " + std::to_string(shard.count) + "/" +
-                    std::to_string(shard.count));
+  check_shard(shard, "--shard");
   return shard;
+}
+
+void check_shard(Shard shard, const std::string& where) {
+  const std::string count = std::to_string(shard.count);
+  if (shard.count < 1) throw Error(where, "a run has at least one part, not " + count);
+  if (shard.index < 1 || shard.index > shard.count)
+    throw Error(where, "there is no part " + std::to_string(shard.index) + "/" + count,
+                "parts count from 1/" + count + " to " + count + "/" + count);
 }
 
 JobList::JobList(const Library& library, const JobRequest& request) : shard_(request.shard) {

@@ -12,18 +12,16 @@
 #include "engine/episode/runner.h"
 #include "scripting/library/library.h"
 #include "scripting/runtime/episode_scripts.h"
+#include "stampede/episode.h"
 
 namespace stampede {
 
 // Seeds from here on are the test split's.
 inline constexpr std::int64_t kFirstTestSeed = 1'000'000;
 
-// The `index`-th of `count` parts of a run: every `count`-th episode.
-struct Shard {
-  std::int64_t index = 1, count = 1;
-};
 // Of a text such as `2/8`. Throws Error when it is none, or names a part that is not there.
 Shard shard_from(const std::string& text);
+void check_shard(Shard shard, const std::string& where);  // throws Error, likewise
 
 struct JobRequest {
   std::vector<std::string> tasks;

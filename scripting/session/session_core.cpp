@@ -105,7 +105,9 @@ JobList jobs_of(const std::shared_ptr<const Library>& library, const std::string
         where,
         "seeds from " + std::to_string(kFirstTestSeed) + " up belong to the test split, those below to the other",
         "ask for the episodes of each split by themselves");
+  check_shard(asked.shard, where + "::shard");
   JobRequest request{asked.tasks, asked.episodes, asked.each.seed, asked.each.variation};
+  request.shard = asked.shard;
   if (options.where || options.goal) {
     request.variations.emplace();
     for (const std::string& task : asked.tasks)

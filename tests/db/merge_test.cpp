@@ -122,5 +122,45 @@ TEST_CASE("what cannot be merged is told") {
   CHECK(!std::filesystem::exists(folder / "b.db"));
   const std::atomic<bool> stop = true;
   make(folder / "many.db", {2, 3, 4, 5});
-  CHECK(merge(folder / "a.db", {folder / "many.db"}, &stop).interrupted);
+  CHECK(merge(folder / "a.db", {folder / "many.db"}, {.stop = &stop}).interrupted);
+}
+
+TEST_CASE("episodes that were made differently are put together only where that is asked for") {
+  const Folder folder;
+  make(folder / "a.db", {1});
+  struct Other {
+    const char *change, *complaint;
+  };
+  const Other others[] = {
+      {"UPDATE engine_run SET engine_version = '0.0.1'", "made of another release than those of"},
+      {"UPDATE engine_run SET numerics = 'f00'", "by another build, or on another class of processor"},
+      {"PRAGMA foreign_keys = OFF; UPDATE definition SET hash = 'f00'; UPDATE engine_run_definition SET hash = 'f00'",
+       "made of another version of"}};
+  for (const Other& other : others) {
+    std::filesystem::remove(folder / "b.db");
+    make(folder / "b.db", {2});
+    {
+      const sql::Database file((folder / "b.db").string(), SQLITE_OPEN_READWRITE, "b.db");
+      file.run(other.change);
+    }
+    CHECK_THROWS_WITH(merge(folder / "sum.db", {folder / "a.db", folder / "b.db"}),
+                      Contains(other.complaint) && Contains("a.db") && Contains("--mixed"));
+    CHECK(!std::filesystem::exists(folder / "sum.db"));
+    CHECK_THROWS_WITH(merge(folder / "b.db", {folder / "a.db"}), Contains(other.complaint));
+  }
+  CHECK(merge(folder / "sum.db", {folder / "a.db", folder / "b.db"}, {.mixed = true}).files.size() == 2);
+  CHECK(Catalogue::open(folder / "sum.db").episodes().size() == 2);
+  make(folder / "c.db", {3});
+  CHECK(merge(folder / "sum.db", {folder / "c.db"}).files[0].added == 1);  // it holds both versions already
+}
+
+TEST_CASE("tables of a file's owner are named, and stay where they are") {
+  const Folder folder;
+  make(folder / "a.db", {1});
+  {
+    const sql::Database file((folder / "a.db").string(), SQLITE_OPEN_READWRITE, "a.db");
+    file.run("CREATE TABLE own_notes (text TEXT); CREATE TABLE own_marks (n INTEGER)");
+  }
+  CHECK(merge(folder / "sum.db", {folder / "a.db"}).files[0].own_tables ==
+        std::vector<std::string>{"own_marks", "own_notes"});
 }

@@ -159,7 +159,8 @@ TEST_CASE("catalogues of earlier releases are merged with those of this one") {
   merge(folder / "old_alone.db", {folder / "old.db"});
   CHECK(Catalogue::open(folder / "old_alone.db").content_hash() == Catalogue::open(folder / "old.db").content_hash());
   Catalogue::write(folder / "new.db").add(sample_episode("lift", "colour=red", 1), kEngine);
-  const MergeResult result = merge(folder / "both.db", {folder / "old.db", folder / "new.db", folder / "old_alone.db"});
+  const MergeResult result =
+      merge(folder / "both.db", {folder / "old.db", folder / "new.db", folder / "old_alone.db"}, {.mixed = true});
   CHECK(result.files[0].added == static_cast<std::int64_t>(Catalogue::open(folder / "old.db").episodes().size()));
   CHECK((result.files[1].added == 1 && result.files[2].added == 0));
   CHECK(bytes_of(folder / "old.db") == before);

@@ -43,7 +43,7 @@ TEST_CASE("the program's own help lists the commands and the exit codes") {
   const Said said = say({"--help"});
   CHECK(said.code == kDone);
   for (const CommandRow& command : all_commands()) CHECK(said.out.find("  " + command.name + " ") != std::string::npos);
-  CHECK(said.out.find("5 budget spent; 70 a bug of ours") != std::string::npos);
+  CHECK(said.out.find("5 budget spent; 6 interrupted; 70 a bug of ours") != std::string::npos);
 }
 
 TEST_CASE("command lines that make no sense end with 2, say so on stderr, and propose a cure") {

@@ -293,7 +293,7 @@ TEST_CASE("Ctrl-C ends a run that waits for a policy, and the policy") {
                                      "read -r line; echo $$ >" + (folder / "pid") + "; sleep 1000"},
                                     console);
   later.join();
-  CHECK(code == kNo);
+  CHECK(code == kInterrupted);
   CHECK(says(err.str(), "interrupted: 0 of 1 episodes"));
   CHECK_FALSE(runs(file_text(folder / "pid")));
 }

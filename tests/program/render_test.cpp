@@ -315,7 +315,7 @@ TEST_CASE("Ctrl-C while rendering: no half episode, and the same command goes on
       {"render", folder / "d.db", "--into", folder / "d.db", "--size", "256x256", "--workers", "2", "--root", kRoot},
       console);
   INFO(err.str());
-  CHECK(code == kNo);
+  CHECK(code == kInterrupted);
   CHECK(says(err.str(), "of 3 episodes are drawn"));
   const Catalogue catalogue = Catalogue::open(folder / "d.db");
   int with = 0;

@@ -79,6 +79,22 @@ TEST_CASE("many episodes of a session are those of `run`, and several workers wr
   CHECK(Catalogue::open(folder / "program.db").content_hash() == hashes[0]);
 }
 
+TEST_CASE("shards that programs make are together what one run makes") {
+  const Folder folder;
+  const auto whole = many_session(folder / "whole.db");
+  whole->run_all(two_tasks());
+  const auto parts = many_session(folder / "parts.db");
+  for (std::int64_t part = 1; part <= 4; ++part) {
+    RunRequest request = two_tasks();
+    request.shard = {part, 4};
+    CHECK(parts->run_all(request).finished == (part <= 2 ? 2 : 1));
+  }
+  CHECK(Catalogue::open(folder / "parts.db").content_hash() == Catalogue::open(folder / "whole.db").content_hash());
+  RunRequest wrong = two_tasks();
+  wrong.shard = {5, 4};
+  CHECK_THROWS_WITH(parts->run_all(wrong), Catch::Contains("there is no part 5/4"));
+}
+
 TEST_CASE("a sink gets every episode in order with all that happened, and no catalogue appears") {
   const Folder folder;
   for (const bool named : {false, true}) {  // a catalogue that the session has is left alone too

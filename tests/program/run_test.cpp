@@ -378,4 +378,16 @@ TEST_CASE("a controller that a run names for a skill goes before the run's own, 
   CHECK(controllers(both) == "skill,controller\npick,cartesian_impedance\nstack,joint_impedance\n");
 }
 
+TEST_CASE("the exit code of a run is the same whether its episodes were there or not") {
+  const Folder folder;
+  const std::vector<std::string> fails = {"run",           "stack_blocks", "--root", kRoot,   "--behaviour",
+                                          "random_skills", "--skills",     "1",      "--out", folder / "o.db"};
+  CHECK(say(fails).code == kNo);
+  CHECK(say(fails).code == kNo);
+  const std::vector<std::string> works = {"run", "reach_target", "--root", kRoot, "--out", folder / "o.db"};
+  CHECK(say(works).code == kDone);
+  CHECK(say(works).code == kDone);
+  CHECK(say(fails).code == kNo);
+}
+
 }  // namespace stampede::program

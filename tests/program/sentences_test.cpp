@@ -160,7 +160,7 @@ TEST_CASE("Ctrl-C ends paraphrase, and what is done is kept") {
                                           "goal",       "--grain",  "steps",       "--url",    server.url(),
                                           "--model",    "small",    "--count",     "1",        "--retries",
                                           "0",          "--root",   kRoot,         "--path",   mine.folder.text()};
-  CHECK(run_program(all_commands(), words, console) == kNo);
+  CHECK(run_program(all_commands(), words, console) == kInterrupted);
   INFO(out.str() + err.str());
   CHECK(says(err.str(), "interrupted: what is done is kept"));
   const nlohmann::json kept = nlohmann::json::parse(file_text(mine.file()));

@@ -47,7 +47,7 @@ TEST_CASE("Ctrl-C and SIGTERM end a run cleanly: what is finished stays whole, t
     const int status = signalled_run(folder / "demos.db", folder / "story.txt", signal_number);
     INFO(file_text(folder / "story.txt").substr(0, 2000));
     REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == kNo);
+    CHECK(WEXITSTATUS(status) == kInterrupted);
     CHECK_FALSE(std::filesystem::exists(folder / "demos.db-wal"));
     const auto episodes = Catalogue::open(folder / "demos.db").episodes();
     CHECK(episodes.size() >= 2);

@@ -30,6 +30,16 @@ def demos(made: Path) -> stampede.Catalogue:
     return stampede.Catalogue(made)
 
 
+def test_shards_are_parts_of_one_run(tmp_path: Path) -> None:
+    session = stampede.Session(catalogue=tmp_path / "parts.db")
+    for part in (1, 2, 3):
+        tally = session.run_all(["reach_target"], episodes=5, shard=(part, 3))
+        assert (tally.total, tally.existing) == (2 if part < 3 else 1, 0)
+    assert session.run_all(["reach_target"], episodes=5).existing == 5
+    with pytest.raises(stampede.Error, match="there is no part 4/3"):
+        session.run_all(["reach_target"], shard=(4, 3))
+
+
 def test_episodes_are_found_by_conditions(demos: stampede.Catalogue) -> None:
     assert len(demos) == 3
     assert [e.task for e in demos] == ["pick_and_lift", "pick_and_lift", "reach_target"]

@@ -69,12 +69,19 @@ struct RunProgress {
   std::int64_t done = 0, total = 0;
 };
 
+// The `index`-th of `count` parts of a run: every `count`-th episode. All parts together are the whole, whoever runs
+// them.
+struct Shard {
+  std::int64_t index = 1, count = 1;  // 1 <= index <= count
+};
+
 // Many episodes of tasks. Episode i of a task has the seed `each.seed` + i and the task's variations in turn, in a
 // shuffled order that is always the same; the run's order is by task, variation and seed. As `stampede run` does it.
 struct RunRequest {
   std::vector<std::string> tasks = {};
   std::int64_t episodes = 1;  // of each task, good or bad
   int workers = 1;            // cores to use; neither the episodes nor their order depend on them
+  Shard shard = {};           // of this run, `--shard 2/8`
   EpisodeRequest each = {};   // `seed`: the first one's; `variation`: which are used, empty: all
   // Both are called by the thread that called run_all, one at a time, and may use the session. What they throw ends the
   // run and comes out of it. What is finished or under way by then is kept all the same, unless it was the sink that

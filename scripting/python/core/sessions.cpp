@@ -361,15 +361,19 @@ random_applicable), skills, randomise.)")
       .def(
           "run_all",
           [](PySession& self, std::vector<std::string> tasks, std::int64_t episodes, int workers,
-             std::optional<nb::callable> progress, std::optional<nb::callable> sink, const nb::kwargs& words) {
+             std::pair<std::int64_t, std::int64_t> shard, std::optional<nb::callable> progress,
+             std::optional<nb::callable> sink, const nb::kwargs& words) {
             const Using use(self.turn, "Session.run_all");
             RunRequest request{.tasks = std::move(tasks), .episodes = episodes, .workers = workers};
+            request.shard = {shard.first, shard.second};
             request.each = request_from(words, "run_all");
             return run_all(self, std::move(request), progress, sink);
           },
-          "tasks"_a, "episodes"_a = 1, "workers"_a = 1, "progress"_a = nb::none(), "sink"_a = nb::none(), "request"_a,
+          "tasks"_a, "episodes"_a = 1, "workers"_a = 1, "shard"_a = std::pair<std::int64_t, std::int64_t>(1, 1),
+          "progress"_a = nb::none(), "sink"_a = nb::none(), "request"_a,
           R"(Runs many episodes in several threads and keeps each, in a fixed order, whatever the number of workers.
 
+shard (2, 8): the second of eight parts of this run; all parts, on any machines, merged are the whole.
 progress(episode, done, total) is called after each; sink(episode) gets each instead of the catalogue. Other arguments
 as of `run`; `seed` is the first one's.)")
       .def(
