@@ -4,7 +4,7 @@ _stampede() {
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
     list) words="--sheet --hash --force --root --path --json --help" ;;
     check) words="--physics --why --pictures --episodes --seed --randomise --workers --force --root --path --json --help" ;;
-    run) words="--episodes --variation --seed --split --workers --out --shard --on-failure --controller --motion-planner --sentences --randomise --where --goal --behaviour --skills --set --planner --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --root --path --json --help" ;;
+    run) words="--episodes --variation --seed --split --workers --out --shard --plan --on-failure --controller --motion-planner --sentences --randomise --where --goal --behaviour --skills --set --planner --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --root --path --json --help" ;;
     evaluate) words="--perturb --episodes --variation --seed --split --workers --out --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --root --path --json --help" ;;
     show) words="--all --frame --as --leave-out --root --path --json --help" ;;
     plan) words="--variation --seed --pddl --task-sized --bddl --leave-out --where --goal --k --expansions --planner --root --path --json --help" ;;

@@ -89,7 +89,9 @@ ExitCode do_make(const Arguments& arguments, Console& console) {
     console.out << "\n";
   }
   if (!whole) return kDone;
-  return tell_check(verify(lock, Catalogue::open(out)), lock, arguments.flag("--json"), console);
+  const Catalogue catalogue = Catalogue::open(out);
+  const LockCheck check = verify(lock, {&catalogue});
+  return tell_check(check, lock, arguments.flag("--json"), console);
 }
 
 }  // namespace
@@ -101,7 +103,7 @@ CommandRow make_command() {
           "--root and --path. Where this release or processor makes other data than was locked, that is said before "
           "work starts. The same command goes on where it was interrupted. In the end the catalogue is compared with "
           "the lock; the exit code is 1 where they differ.",
-          {{"LOCK", "what `stampede lock` wrote", true, false}},
+          {{"LOCK", "what `stampede lock` or `run --plan` wrote", true, false}},
           {{"--out", "FILE", "the catalogue", Takes::path, "demos.db", {}, false},
            {"--workers", "W", "cores to use, default: all; they do not change the data", Takes::integer, "", {}, false},
            {"--shard", "I/N", "only the I-th of N parts, as of `run`", Takes::text, "", {}, false},

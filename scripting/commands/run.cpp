@@ -16,6 +16,7 @@
 #include "scripting/program/json_text.h"
 #include "scripting/program/progress.h"
 #include "scripting/session/constraints_fit.h"
+#include "scripting/session/lock.h"
 #include "scripting/session/run_job.h"
 
 namespace stampede::program {
@@ -74,6 +75,19 @@ void print_answer(const RunTally& tally, const std::string& out, bool json, Cons
   console.out << text.end().end().text();
 }
 
+// A plan has room for options and scripts.
+void require_plannable(const Arguments& arguments, const RunSettings& settings) {
+  const auto refuse = [](const std::string& what, const std::string& cure) {
+    throw UsageError("--plan: " + what, cure);
+  };
+  if (arguments.has("--policy")) refuse("what a policy does cannot be planned", "leave --policy out");
+  if (arguments.has("--planner")) refuse("another program cannot be planned", "leave --planner out");
+  if (arguments.has("--shard")) refuse("a plan is of the whole run", "say --shard to `stampede make`");
+  if (arguments.flag("--sentences")) refuse("it has no room for sentences that a model made", "leave --sentences out");
+  if (std::ranges::any_of(settings.cameras, [](const auto& of_task) { return !of_task.second.empty(); }))
+    refuse("it has no room for cameras", "put them into the world's file");
+}
+
 // The same answer where all episodes were there already.
 bool any_success(const std::string& file, const std::vector<std::string>& tasks) {
   const Catalogue catalogue = Catalogue::open(file);
@@ -96,9 +110,15 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   const JobList jobs(*library, request);
   settings.cameras = cameras_by_task(library, jobs, arguments);
   if (arguments.flag("--sentences")) settings.sentences = made_sentences(*library, request.tasks, console);
+  const EngineInfo engine{STAMPEDE_VERSION, numerics_probe()};
+  if (arguments.flag("--plan")) {
+    require_plannable(arguments, settings);
+    console.out << to_text(plan_of(*library, jobs, settings.options, engine));
+    return kDone;
+  }
   const std::string out = arguments.text("--out");
   CatalogueWriterOptions writing;
-  writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+  writing.engine = engine;
   writing.queue_bytes = queue_bytes(settings);
   CatalogueWriter writer(out, std::move(writing));
   Progress progress(console);
@@ -140,6 +160,13 @@ std::vector<OptionRow> own_options() {
        "only the I-th of N parts of this run, each into a file of its own; merged they are the whole, and `query` "
        "asks them as one",
        Takes::text,
+       "",
+       {},
+       false},
+      {"--plan",
+       "",
+       "run nothing, but say what would be, scripts and all, for `stampede make` on many machines and `verify`",
+       Takes::flag,
        "",
        {},
        false},
@@ -198,6 +225,7 @@ CommandRow run_command() {
       {"stampede run stack_blocks push_buttons --episodes 100 --workers 4 --out demos.db",
        "stampede run stack_blocks --variation colour=red --seed 7",
        "stampede run stack_blocks --episodes 100000 --shard 3/100 --out part3.db",
+       "stampede run push_buttons --episodes 1000 --plan > buttons.plan",
        "stampede run put_item_in_drawer --where '(open chest.top_drawer)' --goal '(closed chest.top_drawer)'",
        "stampede run pick_and_lift --set pick.height=0.2 --set pick.controller=cartesian_impedance",
        "stampede run stack_blocks --behaviour random_applicable --skills 12 --on-failure recover",

@@ -46,7 +46,11 @@ void add_json(const char* name, const std::vector<SeedStrand>& strands, JsonText
 
 ExitCode do_verify(const Arguments& arguments, Console& console) {
   const Lock lock = lock_from_file(arguments.text("LOCK"));
-  return tell_check(verify(lock, Catalogue::open(arguments.text("FILE"))), lock, arguments.flag("--json"), console);
+  std::vector<Catalogue> catalogues;
+  for (const std::string& file : arguments.list("FILE")) catalogues.push_back(Catalogue::open(file));
+  std::vector<const Catalogue*> all;
+  for (const Catalogue& one : catalogues) all.push_back(&one);
+  return tell_check(verify(lock, all), lock, arguments.flag("--json"), console);
 }
 
 }  // namespace
@@ -64,10 +68,14 @@ ExitCode tell_check(const LockCheck& check, const Lock& lock, bool json, Console
     return check.whole ? kDone : kNo;
   }
   if (check.whole) {
-    console.out << fmt::format("as locked: {} episodes, content hash {}\n", lock.episodes(), lock.hash);
+    console.out << (lock.is_plan()
+                        ? fmt::format("complete: {} episodes\n", lock.episodes())
+                        : fmt::format("as locked: {} episodes, content hash {}\n", lock.episodes(), lock.hash));
     return kDone;
   }
-  console.out << fmt::format("not as locked: {} of {} episodes are the same\n", check.same, lock.episodes());
+  console.out << (lock.is_plan()
+                      ? fmt::format("incomplete: {} of {} episodes are there\n", check.same, lock.episodes())
+                      : fmt::format("not as locked: {} of {} episodes are the same\n", check.same, lock.episodes()));
   tell(check.missing, "are missing", console);
   tell(check.other, "have other content", console);
   tell(check.further, "were not locked", console);
@@ -79,12 +87,15 @@ ExitCode tell_check(const LockCheck& check, const Lock& lock, bool json, Console
 CommandRow verify_command() {
   return {"verify",
           "Compare a catalogue with a lock",
-          "Every value of every episode counts, wall times left out. Says which episodes are missing, have other "
+          "Every value of every episode counts, wall times left out; of a plan only what is missing does. Several "
+          "files are "
+          "parts of one. Says which episodes are missing, have other "
           "content or were not locked, and which scripts differ; the exit code is 0 where the catalogue holds exactly "
           "what was locked.",
-          {{"LOCK", "what `stampede lock` wrote", true, false}, {"FILE", "the catalogue", true, false}},
+          {{"LOCK", "what `stampede lock` or `run --plan` wrote", true, false},
+           {"FILE", "the catalogue, or its parts", true, true}},
           {},
-          {"stampede verify buttons.lock again.db"},
+          {"stampede verify buttons.lock again.db", "stampede verify buttons.plan part1.db part2.db"},
           do_verify};
 }
 

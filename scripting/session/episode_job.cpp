@@ -148,6 +148,8 @@ EpisodeJob JobList::operator[](std::int64_t index) const {
   return {strand.task, strand.variation, strand.first_seed + (place - strand.begin) * strand.stride};
 }
 
+std::vector<SeedStrand> JobList::strands() const { return {strands_.begin(), strands_.end()}; }
+
 std::vector<EpisodeJob> JobList::first_of_each_task() const {
   std::vector<EpisodeJob> jobs;
   for (const Strand& strand : strands_)

@@ -51,6 +51,7 @@ class JobList {
   JobList(const Library& library, std::vector<SeedStrand> strands, Shard shard = {});
   std::int64_t size() const;
   EpisodeJob operator[](std::int64_t index) const;
+  std::vector<SeedStrand> strands() const;  // of all shards
   std::vector<EpisodeJob> first_of_each_task() const;
 
  private:

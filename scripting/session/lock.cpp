@@ -26,6 +26,10 @@ bool is_shared(const DefinitionRecord& script) {
   return kShared.contains(script.kind) && !is_foreign(script);
 }
 
+DefinitionRecord record_of(const ScriptFile& file) {
+  return {std::string(to_string(file.kind)), file.name, file.shown_path, file.source, file.hash};
+}
+
 std::vector<DefinitionRecord> shared_ones(const std::vector<DefinitionRecord>& scripts) {
   std::vector<DefinitionRecord> shared;
   std::ranges::copy_if(scripts, std::back_inserter(shared), is_shared);
@@ -37,6 +41,7 @@ using Group = std::tuple<std::map<std::string, std::string>, Split, std::string>
 
 struct Seed {
   std::int64_t seed = 0, id = 0;
+  std::size_t file = 0;  // of several that are asked as one
 };
 using Seeds = std::map<std::pair<std::string, std::string>, std::vector<Seed>>;  // by task and variation
 
@@ -56,11 +61,12 @@ struct Portion {
 class Portions {
  public:
   // `asked`: the options that the run was asked for.
-  void add(const StoredRun& run, const std::map<std::string, std::string>& asked, const EpisodeSummary& episode) {
+  void add(const StoredRun& run, const std::map<std::string, std::string>& asked, const EpisodeSummary& episode,
+           std::size_t file) {
     const Split split = episode.seed >= kFirstTestSeed ? Split::test : Split::train;
     Portion*& portion = portion_of_[{run.hash, split, asked}];
     if (portion == nullptr) portion = &portion_for(run, {asked, split, definitions_hash(shared_ones(run.definitions))});
-    portion->seeds[{episode.task, episode.variation}].push_back({episode.seed, episode.id});
+    portion->seeds[{episode.task, episode.variation}].push_back({episode.seed, episode.id, file});
   }
   const std::map<Group, std::deque<Portion>>& by_group() const { return portions_; }
 
@@ -93,9 +99,9 @@ void each_strand(Seeds seeds, const Take& take) {
   }
 }
 
-std::string hash_of(std::span<const Seed> seeds, const ContentHashes& hashes) {
+std::string hash_of(std::span<const Seed> seeds, const std::vector<ContentHashes>& hashes) {
   Hasher hasher;
-  for (const Seed& one : seeds) hasher.text(hashes.episodes.at(one.id));
+  for (const Seed& one : seeds) hasher.text(hashes[one.file].episodes.at(one.id));
   return hasher.digest().substr(0, 16);
 }
 
@@ -172,10 +178,10 @@ bool is_acted(const StoredRun& run) {
 }
 
 // Strictly: throws Error for an episode that no run makes again.
-Portions portions_of(const Catalogue& catalogue, const std::string& file, bool strictly) {
+void add_portions(const Catalogue& catalogue, const std::string& file, bool strictly, std::size_t number,
+                  Portions& portions) {
   const std::vector<StoredRun> runs = catalogue.runs();
   if (strictly) check_one_engine(file, runs);
-  Portions portions;
   AskedOptions asked;
   for (const EpisodeSummary& episode : catalogue.episodes()) {
     const StoredRun& run = run_of(runs, file, episode);
@@ -189,9 +195,8 @@ Portions portions_of(const Catalogue& catalogue, const std::string& file, bool s
     if (strictly && options == nullptr)
       refuse(file, episode, "an agent acted in it, and a lock has no room for what was done");
     if (strictly) check_pictures(catalogue, file, episode, run);
-    portions.add(run, options != nullptr ? *options : run.options, episode);
+    portions.add(run, options != nullptr ? *options : run.options, episode, number);
   }
-  return portions;
 }
 
 using ScriptPlaces = std::map<std::tuple<std::string, std::string, std::string>, std::size_t>;  // by kind, name, hash
@@ -206,12 +211,13 @@ std::int64_t Lock::episodes() const {
 }
 
 Lock lock_of(const Catalogue& catalogue, const std::string& file) {
-  const Portions portions = portions_of(catalogue, file, true);
+  Portions portions;
+  add_portions(catalogue, file, true, 0, portions);
   if (portions.by_group().empty()) throw Error(file, "it has no episodes", "lock it once something has been run");
-  const ContentHashes hashes = catalogue.content_hashes();
+  const std::vector<ContentHashes> hashes = {catalogue.content_hashes()};
   Lock lock;
   lock.engine = catalogue.runs().front().engine;
-  lock.hash = hashes.whole;
+  lock.hash = hashes[0].whole;
   ScriptPlaces places;
   for (const auto& [group, list] : portions.by_group())
     for (const Portion& portion : list)
@@ -233,6 +239,34 @@ Lock lock_of(const Catalogue& catalogue, const std::string& file) {
     }
   }
   return lock;
+}
+
+Lock plan_of(const Library& library, const JobList& jobs, const RunOptions& options, const EngineInfo& engine) {
+  Lock plan;
+  plan.engine = engine;
+  LockedRun& run = plan.runs.emplace_back();
+  run.options = options.as_text();
+  run.split = options.split;
+  static_cast<void>(options_from(run.options));  // throws for what makes nothing again
+  std::vector<const ScriptFile*> files;
+  bool imported = false;
+  for (const SeedStrand& strand : jobs.strands()) {
+    run.strands.push_back({strand, {}});
+    files.push_back(library.file(DefinitionKind::task, strand.task));
+    imported = imported || library.task(strand.task)->is_imported;
+  }
+  for (const ScriptFile* file : library.all_files())
+    if (is_shared(record_of(*file))) files.push_back(file);
+  std::set<std::tuple<std::string, std::string, std::string>> known;
+  for (const ScriptFile* file : library.used_by(files)) {
+    DefinitionRecord script = record_of(*file);
+    if (file->kind == DefinitionKind::words || (is_foreign(script) && !imported)) continue;
+    if (known.insert({script.kind, script.name, script.hash}).second) plan.scripts.push_back(std::move(script));
+  }
+  std::ranges::sort(plan.scripts, {}, [](const auto& one) { return std::tie(one.kind, one.name, one.hash); });
+  run.scripts.resize(plan.scripts.size());
+  std::iota(run.scripts.begin(), run.scripts.end(), std::size_t{0});
+  return plan;
 }
 
 Roots roots_of(const Lock& lock, const LockedRun& run, const Roots& beside) {
@@ -302,11 +336,14 @@ std::vector<std::string> scripts_of_one_alone(const Lock& lock, const Portions& 
 
 }  // namespace
 
-LockCheck verify(const Lock& lock, const Catalogue& catalogue) {
-  const Portions portions = portions_of(catalogue, "", false);
-  const ContentHashes hashes = catalogue.content_hashes();
+LockCheck verify(const Lock& lock, const std::vector<const Catalogue*>& catalogues) {
+  Portions portions;
+  std::vector<ContentHashes> hashes;
+  for (const Catalogue* catalogue : catalogues) {
+    add_portions(*catalogue, "", false, hashes.size(), portions);
+    hashes.push_back(lock.is_plan() ? ContentHashes() : catalogue->content_hashes());
+  }
   LockCheck check;
-  check.whole = hashes.whole == lock.hash;
   const auto add = [](const Whose& whose, const std::vector<Seed>& seeds, std::vector<SeedStrand>& to) {
     each_strand({{{std::get<1>(whose), std::get<2>(whose)}, seeds}},
                 [&](const SeedStrand& strand, std::span<const Seed>) { to.push_back(strand); });
@@ -321,13 +358,15 @@ LockCheck verify(const Lock& lock, const Catalogue& catalogue) {
         const std::int64_t seed = strand->episodes.first_seed + i * strand->episodes.stride;
         const auto at = there.find(seed);
         if (at == there.end())
-          missing.push_back({seed, 0});
+          missing.push_back({seed});
         else
           found.push_back(at->second.front());
       }
       for (const Seed& one : found) there.erase(one.seed);
       const auto count = static_cast<std::int64_t>(found.size());
-      if (count == strand->episodes.count && hash_of(found, hashes) != strand->hash)
+      if (lock.is_plan())
+        check.same += count;
+      else if (count == strand->episodes.count && hash_of(found, hashes) != strand->hash)
         check.other.push_back(strand->episodes);
       else if (count == strand->episodes.count)
         check.same += count;
@@ -337,6 +376,9 @@ LockCheck verify(const Lock& lock, const Catalogue& catalogue) {
     for (const auto& [seed, list] : there) further.push_back(list.front());
     add(whose, further, check.further);
   }
+  const bool complete = check.missing.empty() && check.other.empty();
+  check.whole =
+      complete && (lock.is_plan() || (check.further.empty() && (hashes.size() > 1 || hashes.at(0).whole == lock.hash)));
   if (!check.whole) check.other_scripts = scripts_of_one_alone(lock, portions);
   return check;
 }

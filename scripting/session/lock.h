@@ -15,7 +15,7 @@ namespace stampede {
 
 struct LockedStrand {
   SeedStrand episodes;
-  std::string hash;  // of their content, one after the other
+  std::string hash;  // of their content, one after the other; empty: of a plan
 };
 
 // Episodes that are made with one set of options from one set of scripts.
@@ -26,18 +26,23 @@ struct LockedRun {
   std::vector<LockedStrand> strands;
 };
 
+// A plan is a lock of what nobody has made yet: its hashes are empty.
 struct Lock {
   EngineInfo engine;
   std::string hash;                       // Catalogue::content_hash
   std::vector<DefinitionRecord> scripts;  // by kind, name, hash
   std::vector<LockedRun> runs;
   std::int64_t episodes() const;
+  bool is_plan() const { return hash.empty(); }
 };
 
 // Repeatable: equal catalogues, equal locks. Throws Error, with the episode, for what no run makes again: what a policy
 // did, what was recorded of a real robot, options of which the catalogue keeps only a hash, pictures that came later,
 // and what several releases or classes of processor made.
 Lock lock_of(const Catalogue& catalogue, const std::string& file);
+
+// What a run would make. Throws Error, by its name, for an option that a lock cannot hold.
+Lock plan_of(const Library& library, const JobList& jobs, const RunOptions& options, const EngineInfo& engine);
 
 std::string to_text(const Lock& lock);                   // JSON
 Lock lock_from_file(const std::filesystem::path& file);  // throws Error with place and cure
@@ -51,13 +56,14 @@ JobList jobs_of(const Library& library, const LockedRun& run, Shard shard);
 std::string makes_other_data(const Lock& lock, const EngineInfo& here);
 
 struct LockCheck {
-  bool whole = false;                      // all of the catalogue is as locked, and no more is in it
+  bool whole = false;                      // all is as locked, and no more is there; of a plan: nothing is missing
   std::int64_t same = 0;                   // episodes of strands that are complete and have the locked content
   std::vector<SeedStrand> missing;         // not there
   std::vector<SeedStrand> other;           // with other content than was locked
   std::vector<SeedStrand> further;         // there, and not locked
   std::vector<std::string> other_scripts;  // paths of scripts that differ, or are in one of the two alone
 };
-LockCheck verify(const Lock& lock, const Catalogue& catalogue);
+// Several catalogues count as one: the parts of a run.
+LockCheck verify(const Lock& lock, const std::vector<const Catalogue*>& catalogues);
 
 }  // namespace stampede

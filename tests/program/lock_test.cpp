@@ -83,6 +83,53 @@ TEST_CASE("what a lock names is made again bit for bit, whatever the runs were a
   CHECK(says(once_more.out, "0 episodes made, 16 were there already"));
 }
 
+TEST_CASE("a plan is made by parts on many machines, and says what is missing") {
+  const Shelf shelf;
+  std::vector<std::string> run = {"reach_target", "pick_and_lift", "--episodes", "4", "--set", "pick.height=0.1"};
+  REQUIRE(shelf.run(run).code == kDone);
+  run.emplace_back("--plan");
+  const Said plan = shelf.run(run);
+  REQUIRE(plan.code == kDone);
+  put(shelf.folder, "demos.lock", plan.out);
+  CHECK(lock_from_file(shelf.lock).is_plan());
+  CHECK(shelf.verify(shelf.demos).out == "complete: 8 episodes\n");
+  const std::string a = shelf.folder / "a.db", b = shelf.folder / "b.db";
+  REQUIRE(shelf.make({"--out", a, "--shard", "1/3"}).code == kDone);
+  REQUIRE(shelf.make({"--out", b, "--shard", "2/3"}).code == kDone);
+  const Said some = say({"verify", shelf.lock, a, b});
+  CHECK(some.code == kNo);
+  CHECK(says(some.out, "incomplete: 6 of 8 episodes are there\n2 episodes are missing:"));
+  REQUIRE(shelf.make({"--out", a, "--shard", "3/3"}).code == kDone);
+  CHECK(say({"verify", shelf.lock, a, b}).code == kDone);
+  CHECK(shelf.make().out == shelf.again + ": 8 episodes made\ncomplete: 8 episodes\n");
+  CHECK(hash_of(shelf.again) == hash_of(shelf.demos));
+  const std::vector<std::pair<std::vector<std::string>, std::string>> slips = {
+      {{"--policy", "true"}, "what a policy does cannot be planned"},
+      {{"--planner", "true {domain} {problem} {plan}"}, "another program cannot be planned"},
+      {{"--shard", "1/2"}, "a plan is of the whole run"},
+      {{"--add-camera", "mine=at:1,0,1.5;look:0.2,0,0.75"}, "it has no room for cameras"}};
+  for (const auto& [words, complaint] : slips) {
+    std::vector<std::string> asked = {"reach_target", "--plan"};
+    asked.insert(asked.end(), words.begin(), words.end());
+    const Said said = shelf.run(asked);
+    CHECK(said.code == kUsage);
+    CHECK(says(said.err, complaint));
+  }
+}
+
+TEST_CASE("a lock is verified by the parts of a catalogue") {
+  const Shelf shelf;
+  REQUIRE(shelf.run({"reach_target", "--episodes", "4"}).code == kDone);
+  shelf.write_lock();
+  const std::string a = shelf.folder / "a.db", b = shelf.folder / "b.db";
+  REQUIRE(shelf.make({"--out", a, "--shard", "1/2"}).code == kDone);
+  REQUIRE(shelf.make({"--out", b, "--shard", "2/2"}).code == kDone);
+  CHECK(say({"verify", shelf.lock, a, b}).code == kDone);
+  CHECK(say({"verify", shelf.lock, b}).code == kNo);
+  change(b, "UPDATE segment SET end_step = end_step + 1 WHERE episode = 1 AND ordinal = 0");
+  CHECK(says(say({"verify", shelf.lock, a, b}).out, "1 episodes have other content"));
+}
+
 TEST_CASE("the scripts of a lock are made of, not those that have their places now") {
   const Shelf shelf;
   const std::string task = file_text(std::string(kRoot) + "/tasks/reach_target.lua");
