@@ -252,8 +252,10 @@ Lock plan_of(const Library& library, const JobList& jobs, const RunOptions& opti
   bool imported = false;
   for (const SeedStrand& strand : jobs.strands()) {
     run.strands.push_back({strand, {}});
-    files.push_back(library.file(DefinitionKind::task, strand.task));
-    imported = imported || library.task(strand.task)->is_imported;
+    const Library::TaskInfo& task = *library.task(strand.task);
+    files.push_back(library.file(DefinitionKind::task, task.name));
+    files.push_back(library.file(DefinitionKind::world, task.world));  // named by the task, or the usual one
+    imported = imported || task.is_imported;
   }
   for (const ScriptFile* file : library.all_files())
     if (is_shared(record_of(*file))) files.push_back(file);

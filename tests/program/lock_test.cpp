@@ -92,6 +92,14 @@ TEST_CASE("a plan is made by parts on many machines, and says what is missing") 
   REQUIRE(plan.code == kDone);
   put(shelf.folder, "demos.lock", plan.out);
   CHECK(lock_from_file(shelf.lock).is_plan());
+  const std::vector<DefinitionRecord> planned = lock_from_file(shelf.lock).scripts;
+  for (const StoredRun& made : Catalogue::open(shelf.demos).runs())
+    for (const DefinitionRecord& used : made.definitions) {
+      INFO(used.path);
+      CHECK(std::ranges::any_of(planned, [&](const DefinitionRecord& one) {
+        return std::tie(one.kind, one.name, one.path, one.hash) == std::tie(used.kind, used.name, used.path, used.hash);
+      }));
+    }
   CHECK(shelf.verify(shelf.demos).out == "complete: 8 episodes\n");
   const std::string a = shelf.folder / "a.db", b = shelf.folder / "b.db";
   REQUIRE(shelf.make({"--out", a, "--shard", "1/3"}).code == kDone);
