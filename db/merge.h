@@ -20,8 +20,8 @@ struct MergeResult {
 };
 
 struct MergeOptions {
-  bool mixed =
-      false;  // also what was made of two versions of a script, by two releases, or on two classes of processor
+  // Also what two versions of a script, two releases or two classes of processor made.
+  bool mixed = false;
   const std::atomic<bool>* stop = nullptr;
 };
 

@@ -50,6 +50,13 @@ std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr
   return cameras;
 }
 
+void tell_of(Progress& progress, Console& console, RunSettings& settings) {
+  settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
+    progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, episode_line(episode));
+  };
+  settings.remark = [&](const Error& remark) { console.err << remark.what() << "\n"; };
+}
+
 std::string episode_line(const EpisodeRecord& episode) {
   const std::string name = episode.task + (episode.variation.empty() ? "" : " " + episode.variation);
   const double seconds = episode.duration_s();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scripting/program/command.h"
+#include "scripting/program/progress.h"
 #include "scripting/session/run_job.h"
 
 namespace stampede::program {
@@ -23,5 +24,8 @@ std::map<std::string, std::vector<Camera>> cameras_by_task(const std::shared_ptr
 
 // `stack_blocks colour=red seed 3: success, 12.1 s`.
 std::string episode_line(const EpisodeRecord& episode);
+
+// A run moves this bar and says its remarks there. Lifetime: both, longer than the run.
+void tell_of(Progress& progress, Console& console, RunSettings& settings);
 
 }  // namespace stampede::program

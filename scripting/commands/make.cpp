@@ -38,7 +38,7 @@ void require_same_engine(const Lock& lock, const std::string& file, bool anyway,
 }
 
 struct Made {
-  std::int64_t finished = 0, existing = 0, total = 0;
+  std::int64_t finished = 0, existing = 0;
   bool interrupted = false;
 };
 
@@ -54,17 +54,14 @@ Made make_all(const Lock& lock, const Arguments& arguments, Shard shard, Console
     settings.options.split = run.split;
     settings.workers = workers_of(arguments);
     settings.stop = console.stop;
-    settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
-      progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, episode_line(episode));
-    };
-    settings.remark = [&](const Error& remark) { console.err << remark.what() << "\n"; };
+    tell_of(progress, console, settings);
     CatalogueWriterOptions writing;
     writing.engine = this_engine();
     writing.queue_bytes = queue_bytes(settings);
     CatalogueWriter writer(arguments.text("--out"), std::move(writing));
     const RunTally tally = run_jobs(library, jobs, settings, &writer);
     writer.finish();
-    made.finished += tally.finished, made.existing += tally.existing, made.total += tally.total;
+    made.finished += tally.finished, made.existing += tally.existing;
     made.interrupted = tally.interrupted;
     if (made.interrupted) break;
   }

@@ -122,10 +122,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   writing.queue_bytes = queue_bytes(settings);
   CatalogueWriter writer(out, std::move(writing));
   Progress progress(console);
-  settings.progress = [&](const EpisodeRecord& episode, const RunTally& tally) {
-    progress.update({tally.total, tally.done(), tally.finished, tally.succeeded, 0}, episode_line(episode));
-  };
-  settings.remark = [&](const Error& remark) { console.err << remark.what() << "\n"; };
+  tell_of(progress, console, settings);
   tell_left_out(*library, {}, console);
   std::optional<PolicyRun> policy;
   if (acting) {

@@ -88,10 +88,8 @@ CommandRow verify_command() {
   return {"verify",
           "Compare a catalogue with a lock",
           "Every value of every episode counts, wall times left out; of a plan only what is missing does. Several "
-          "files are "
-          "parts of one. Says which episodes are missing, have other "
-          "content or were not locked, and which scripts differ; the exit code is 0 where the catalogue holds exactly "
-          "what was locked.",
+          "files are parts of one. Says which episodes are missing, have other content or were not locked, and which "
+          "scripts differ; the exit code is 0 where the catalogue holds exactly what was locked.",
           {{"LOCK", "what `stampede lock` or `run --plan` wrote", true, false},
            {"FILE", "the catalogue, or its parts", true, true}},
           {},

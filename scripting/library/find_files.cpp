@@ -112,12 +112,6 @@ void take_source(ScriptFile& file, const Source& source, std::vector<Error>& com
   }
 }
 
-// Of those that belong to every task's domain.
-bool is_shared(DefinitionKind kind) {
-  using enum DefinitionKind;
-  return kind == skill || kind == predicate || kind == types || kind == colours || kind == module;
-}
-
 void read_file(const Folder& folder, const fs::path& path, bool shared_too, std::map<std::string, ScriptFile>& files,
                std::vector<Error>& complaints) {
   const auto& [place, root, real_root] = folder;
@@ -165,6 +159,13 @@ std::string_view to_string(DefinitionKind kind) { return enum_name(kKindNames, k
 std::optional<DefinitionKind> definition_kind_from(std::string_view name) {
   return enum_from<DefinitionKind>(kKindNames, name);
 }
+
+bool is_shared(DefinitionKind kind) {
+  using enum DefinitionKind;
+  return kind == skill || kind == predicate || kind == types || kind == colours || kind == module;
+}
+
+bool is_foreign(std::string_view shown_path) { return shown_path.starts_with("worlds/bddl/"); }
 
 std::vector<ScriptFile> find_files(const Roots& roots, std::vector<Error>& complaints) {
   std::map<std::string, ScriptFile> files;

@@ -21,6 +21,10 @@ namespace stampede {
 enum class DefinitionKind { task, skill, predicate, object, world, robot, types, colours, words, module };
 std::string_view to_string(DefinitionKind kind);
 std::optional<DefinitionKind> definition_kind_from(std::string_view name);
+// Every task's domain is made of these: each episode of a library is.
+bool is_shared(DefinitionKind kind);
+// Of another language: only tasks that were imported from one are made of it.
+bool is_foreign(std::string_view shown_path);
 
 // The smallest file of a kind that passes `check` beside our worlds and predicates (for `stampede new`).
 // Throws Error for a bad name, with a sound one as cure.

@@ -53,13 +53,10 @@ SkillLibrary& EpisodeScripts::skills() { return impl_->skills; }
 std::vector<DefinitionRecord> EpisodeScripts::definitions() const {
   const Library& library = *impl_->tests.library();
   std::vector<const ScriptFile*> files = impl_->task.files();
-  for (const DefinitionKind kind : {DefinitionKind::predicate, DefinitionKind::skill, DefinitionKind::types,
-                                    DefinitionKind::colours, DefinitionKind::module}) {
-    for (const ScriptFile* file : library.files(kind)) files.push_back(file);
-  }
-  // Other languages' words take part only where a task was imported from one.
+  for (const ScriptFile* file : library.all_files())
+    if (is_shared(file->kind)) files.push_back(file);
   if (const auto* task = library.task(impl_->task.name()); task == nullptr || !task->is_imported)
-    std::erase_if(files, [](const ScriptFile* file) { return file->shown_path.starts_with("worlds/bddl/"); });
+    std::erase_if(files, [](const ScriptFile* file) { return is_foreign(file->shown_path); });
   std::vector<DefinitionRecord> records;
   for (const ScriptFile* file : files) {
     DefinitionRecord record{std::string(to_string(file->kind)), file->name, file->shown_path, file->source, file->hash};

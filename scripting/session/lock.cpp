@@ -17,13 +17,10 @@
 namespace stampede {
 namespace {
 
-// Of tasks that were imported from another language only.
-bool is_foreign(const DefinitionRecord& script) { return script.path.starts_with("worlds/bddl/"); }
-
 // Every episode of a library is made of these, whatever its task.
-bool is_shared(const DefinitionRecord& script) {
-  static const std::set<std::string> kShared{"predicate", "skill", "types", "colours", "module"};
-  return kShared.contains(script.kind) && !is_foreign(script);
+bool is_of_all(const DefinitionRecord& script) {
+  const std::optional<DefinitionKind> kind = definition_kind_from(script.kind);
+  return kind && is_shared(*kind) && !is_foreign(script.path);
 }
 
 DefinitionRecord record_of(const ScriptFile& file) {
@@ -32,7 +29,7 @@ DefinitionRecord record_of(const ScriptFile& file) {
 
 std::vector<DefinitionRecord> shared_ones(const std::vector<DefinitionRecord>& scripts) {
   std::vector<DefinitionRecord> shared;
-  std::ranges::copy_if(scripts, std::back_inserter(shared), is_shared);
+  std::ranges::copy_if(scripts, std::back_inserter(shared), is_of_all);
   return shared;
 }
 
@@ -178,9 +175,8 @@ bool is_acted(const StoredRun& run) {
 }
 
 // Strictly: throws Error for an episode that no run makes again.
-void add_portions(const Catalogue& catalogue, const std::string& file, bool strictly, std::size_t number,
-                  Portions& portions) {
-  const std::vector<StoredRun> runs = catalogue.runs();
+void add_portions(const Catalogue& catalogue, const std::vector<StoredRun>& runs, const std::string& file,
+                  bool strictly, std::size_t number, Portions& portions) {
   if (strictly) check_one_engine(file, runs);
   AskedOptions asked;
   for (const EpisodeSummary& episode : catalogue.episodes()) {
@@ -211,12 +207,13 @@ std::int64_t Lock::episodes() const {
 }
 
 Lock lock_of(const Catalogue& catalogue, const std::string& file) {
+  const std::vector<StoredRun> runs = catalogue.runs();
   Portions portions;
-  add_portions(catalogue, file, true, 0, portions);
+  add_portions(catalogue, runs, file, true, 0, portions);
   if (portions.by_group().empty()) throw Error(file, "it has no episodes", "lock it once something has been run");
   const std::vector<ContentHashes> hashes = {catalogue.content_hashes()};
   Lock lock;
-  lock.engine = catalogue.runs().front().engine;
+  lock.engine = runs.front().engine;
   lock.hash = hashes[0].whole;
   ScriptPlaces places;
   for (const auto& [group, list] : portions.by_group())
@@ -258,11 +255,11 @@ Lock plan_of(const Library& library, const JobList& jobs, const RunOptions& opti
     imported = imported || task.is_imported;
   }
   for (const ScriptFile* file : library.all_files())
-    if (is_shared(record_of(*file))) files.push_back(file);
+    if (is_shared(file->kind) && !is_foreign(file->shown_path)) files.push_back(file);
   std::set<std::tuple<std::string, std::string, std::string>> known;
   for (const ScriptFile* file : library.used_by(files)) {
+    if (file->kind == DefinitionKind::words || (is_foreign(file->shown_path) && !imported)) continue;
     DefinitionRecord script = record_of(*file);
-    if (file->kind == DefinitionKind::words || (is_foreign(script) && !imported)) continue;
     if (known.insert({script.kind, script.name, script.hash}).second) plan.scripts.push_back(std::move(script));
   }
   std::ranges::sort(plan.scripts, {}, [](const auto& one) { return std::tie(one.kind, one.name, one.hash); });
@@ -312,9 +309,11 @@ Group group_of(const Lock& lock, const LockedRun& run) {
 
 std::map<Whose, Both> side_by_side(const Lock& lock, const Portions& portions) {
   std::map<Whose, Both> both;
-  for (const LockedRun& run : lock.runs)
+  for (const LockedRun& run : lock.runs) {
+    const Group group = group_of(lock, run);
     for (const LockedStrand& strand : run.strands)
-      both[{group_of(lock, run), strand.episodes.task, strand.episodes.variation}].locked.push_back(&strand);
+      both[{group, strand.episodes.task, strand.episodes.variation}].locked.push_back(&strand);
+  }
   for (const auto& [group, list] : portions.by_group())
     for (const Portion& portion : list)
       for (const auto& [of, seeds] : portion.seeds) {
@@ -342,7 +341,7 @@ LockCheck verify(const Lock& lock, const std::vector<const Catalogue*>& catalogu
   Portions portions;
   std::vector<ContentHashes> hashes;
   for (const Catalogue* catalogue : catalogues) {
-    add_portions(*catalogue, "", false, hashes.size(), portions);
+    add_portions(*catalogue, catalogue->runs(), "", false, hashes.size(), portions);
     hashes.push_back(lock.is_plan() ? ContentHashes() : catalogue->content_hashes());
   }
   LockCheck check;
