@@ -34,6 +34,7 @@ CommandRow dataset_command();
 CommandRow score_command();
 CommandRow baseline_command();
 CommandRow questions_command();
+CommandRow cluster_command();
 CommandRow merge_command();
 CommandRow lock_command();
 CommandRow make_command();

@@ -1,10 +1,10 @@
 # bash completion of stampede: source this file
 _stampede() {
-  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge lock make verify export import paraphrase questions dataset baseline score replay render new doc --help --version"
+  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge lock make verify cluster export import paraphrase questions dataset baseline score replay render new doc --help --version"
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
     list) words="--sheet --hash --force --root --path --json --help" ;;
     check) words="--physics --why --pictures --episodes --seed --randomise --workers --force --root --path --json --help" ;;
-    run) words="--episodes --variation --seed --split --workers --out --shard --plan --on-failure --controller --motion-planner --sentences --randomise --where --goal --behaviour --skills --set --planner --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --root --path --json --help" ;;
+    run) words="--episodes --variation --seed --split --on-failure --controller --motion-planner --randomise --where --goal --behaviour --skills --set --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --workers --out --shard --plan --sentences --planner --policy --policy-timeout --observe --reward --root --path --json --help" ;;
     evaluate) words="--perturb --episodes --variation --seed --split --workers --out --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --root --path --json --help" ;;
     show) words="--all --frame --as --leave-out --root --path --json --help" ;;
     plan) words="--variation --seed --pddl --task-sized --bddl --leave-out --where --goal --k --expansions --planner --root --path --json --help" ;;
@@ -14,6 +14,7 @@ _stampede() {
     lock) words="--root --path --json --help" ;;
     make) words="--out --workers --shard --anyway --root --path --json --help" ;;
     verify) words="--root --path --json --help" ;;
+    cluster) words="--shards --out --sbatch --image --claim --workers --episodes --variation --seed --split --on-failure --controller --motion-planner --randomise --where --goal --behaviour --skills --set --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --root --path --json --help" ;;
     export) words="--out --episode --known --dialect --mapping --frame --leave-out --force --root --path --json --help" ;;
     import) words="--task --world --mapping --episodes --seed --out --frame-hz --workers --episode --root --path --json --help" ;;
     paraphrase) words="--variation --seed --count --each --grain --level --dry-run --show-refused --out --url --model --timeout --retries --rate --price-in --price-out --root --path --json --help" ;;

@@ -34,8 +34,8 @@ std::vector<std::string> words_of(const std::string& line) {
 
 // Less of the same.
 void shorten(std::vector<std::string>& words) {
-  const std::map<std::string, std::string> least = {
-      {"--episodes", "1"}, {"--workers", "1"}, {"--skills", "2"}, {"--size", "32x32"}, {"--cell", "32x32"}};
+  const std::map<std::string, std::string> least = {{"--episodes", "1"}, {"--shards", "1"},   {"--workers", "1"},
+                                                    {"--skills", "2"},   {"--size", "32x32"}, {"--cell", "32x32"}};
   for (std::size_t i = 0; i + 1 < words.size(); ++i)
     if (const auto found = least.find(words[i]); found != least.end()) words[i + 1] = found->second;
 }
@@ -82,15 +82,25 @@ class Workplace {
           kDone);
     put("labels.json", "{\"language\": [{\"text\": \"push the buttons\"}]}");
     fs::create_directory("my_tasks");
+    for (const auto& [program, answer] :
+         {std::pair("sbatch", "17"), {"scontrol", ""}, {"squeue", ""}, {"scancel", ""}}) {
+      put(program, std::string("#!/bin/sh\necho ") + answer + "\n");  // tests/program/slurm is a real one
+      fs::permissions(program, fs::perms::owner_all);
+    }
+    setenv("PATH", (folder_.text() + ":" + path_).c_str(), 1);
     for (const char* part : {"part1.db", "part2.db", "old.db", "now.db", "buttons.db"}) fs::copy_file("demos.db", part);
   }
-  ~Workplace() { fs::current_path(before_); }
+  ~Workplace() {
+    fs::current_path(before_);
+    setenv("PATH", path_.c_str(), 1);
+  }
   Workplace(const Workplace&) = delete;
   Workplace& operator=(const Workplace&) = delete;
 
  private:
   static void put(const char* name, const std::string& text) { std::ofstream(name, std::ios::binary) << text; }
   fs::path before_;
+  std::string path_ = std::getenv("PATH");
   Folder folder_;
 };
 
@@ -119,7 +129,8 @@ TEST_CASE("every example of every help text runs") {
       const Said said = say_into_file(words);
       INFO(example << "\n" << said.err);
       const bool drawn = example.find("--behaviour random") != std::string::npos;  // reaches its goal by chance
-      CHECK((said.code == kDone || (drawn && said.code == kNo)));
+      const bool asked = example == "stampede cluster status run1";                // nobody works on it here
+      CHECK((said.code == kDone || ((drawn || asked) && said.code == kNo)));
       ++examples;
     }
   }
