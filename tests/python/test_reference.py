@@ -168,3 +168,5 @@ def test_the_package_is_typed_and_every_name_is_documented() -> None:
         for member, value in vars(shown).items():
             if not member.startswith("_") and inspect.isfunction(value):
                 assert inspect.getdoc(value), f"{name}.{member}"
+    for name in ("generate", "ray_executor", "Part", "Progress", "LostShards", "Executor", "Job"):
+        assert inspect.getdoc(getattr(stampede.cluster, name)), name

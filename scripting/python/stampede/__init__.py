@@ -45,6 +45,7 @@ from stampede.catalogue import Catalogue, StoredEpisode, Table
 from stampede.registration import register_tasks
 
 if TYPE_CHECKING:
+    from stampede import cluster
     from stampede.datasets import FrameDataset, WindowStream
     from stampede.envs import Env, SkillEnv, VectorEnv
     from stampede.evaluation import evaluate
@@ -58,6 +59,7 @@ _LATER = {
     "FrameDataset": "stampede.datasets",
     "WindowStream": "stampede.datasets",
 }
+_MODULES_LATER = {"cluster"}
 
 __all__ = [
     "__version__",
@@ -83,6 +85,7 @@ __all__ = [
     "TaskPlan",
     "WorldState",
     "plan_pddl",
+    "cluster",
     "Env",
     "SkillEnv",
     "VectorEnv",
@@ -97,10 +100,12 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> Any:
-    if name in _LATER:
-        import importlib
+    import importlib
 
+    if name in _LATER:
         return getattr(importlib.import_module(_LATER[name]), name)
+    if name in _MODULES_LATER:
+        return importlib.import_module(f"stampede.{name}")
     raise AttributeError(f"module 'stampede' has no attribute {name!r}")
 
 
