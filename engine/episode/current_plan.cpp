@@ -37,6 +37,12 @@ SkillResult CurrentPlan::again(std::size_t done) {
   return {};
 }
 
+// It promises how many, not which.
+bool CurrentPlan::counts(const PlanStep& step) const {
+  const Action* action = rollout_.domain().action(step.action);
+  return action != nullptr && std::ranges::any_of(action->effects, [](const Effect& one) { return one.at_least > 0; });
+}
+
 bool CurrentPlan::relates() const { return !relations_asked(rollout_.task(), rollout_.facts()).empty(); }
 
 void CurrentPlan::take(Course course) {
@@ -131,8 +137,13 @@ CallSettings CurrentPlan::set(std::size_t index) const {
 SkillResult CurrentPlan::watch(std::size_t done, int segment) {
   look(done, segment);
   if (given_ || !expected_) return {};
-  if (done >= steps.size()) {  // more was hoped for of where things are put than could be
-    if (!relates() || rollout_.holds_now(rollout_.task().goal)) return {};
+  if (done >= steps.size()) {
+    if (rollout_.holds_now(rollout_.task().goal)) return {};
+    if (counts(steps[done - 1]) && rollout_.facts().basic() != last_left_) {  // fewer came true than was counted on
+      last_left_ = rollout_.facts().basic();
+      return again(done);
+    }
+    if (!relates()) return {};      // more was hoped for of where things are put than could be
     forbidden = {steps[done - 1]};  // it would bring about no more; what was in vain before may not be now
     return again(done);
   }

@@ -59,6 +59,7 @@ class CurrentPlan {
   RandomKey key_of(const char* purpose) const;
   void look(std::size_t done, int segment);
   bool stands(const Obstruction& one) const;
+  bool counts(const PlanStep& step) const;
   bool avoid_these(const std::vector<std::string>& blockers, const SkillResult& failed, std::size_t index);
 
   struct Look {  // what was seen of an assumption, and after how many steps
@@ -70,10 +71,11 @@ class CurrentPlan {
   Rollout& rollout_;
   const RunOptions& options_;
   bool given_ = false;
-  std::optional<Facts> expected_;  // basic facts that the last step should have led to
-  Facts assumed_;                  // what the steps rest on, and nobody had seen when they were planned
-  Facts ever_assumed_;             // by any plan of this episode
-  std::vector<Look> looks_;        // in their order
+  std::optional<Facts> expected_;   // basic facts that the last step should have led to
+  std::optional<Facts> last_left_;  // to which a last step that counts did lead
+  Facts assumed_;                   // what the steps rest on, and nobody had seen when they were planned
+  Facts ever_assumed_;              // by any plan of this episode
+  std::vector<Look> looks_;         // in their order
 };
 
 }  // namespace stampede

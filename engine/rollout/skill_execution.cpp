@@ -154,9 +154,10 @@ void SkillExecution::forget_lost() {
   if (std::ranges::none_of(world.contacts(), touches)) rollout_.keep.reset();
 }
 
-// All that it declares is so already: it ends at once, and nothing moves.
+// All that it declares is so already, and of what it counts all, not just enough: it ends at once, and nothing moves.
 bool SkillExecution::nothing_to_do() {
-  return !rollout_.recorder().segment(context_.segment).declared_effects.empty() && missing_effects().literals.empty();
+  return !rollout_.recorder().segment(context_.segment).declared_effects.empty() &&
+         missing_effects().literals.empty() && not_needed().empty();
 }
 
 void SkillExecution::note_parameters(const SkillCall& call) {
@@ -234,6 +235,8 @@ void SkillExecution::open_segment(int parent, const Facts& before) {
   for (const Literal& literal :
        ground_effects(*context_.action, context_.arguments, before, rollout_.domain(), rollout_.facts().objects()))
     segment.declared_effects.push_back({literal.fact, literal.negated});
+  counted_ =
+      counted_effects(*context_.action, context_.arguments, before, rollout_.domain(), rollout_.facts().objects());
   context_.segment = rollout_.recorder().open_segment(std::move(segment), rollout_.step());
 }
 
@@ -429,10 +432,26 @@ void SkillExecution::end_motion(SkillResult result) {
     finish(std::move(result));
 }
 
+// Literals that do not hold, of effects of which enough others do.
+std::vector<EffectRecord> SkillExecution::not_needed() const {
+  std::vector<EffectRecord> all;
+  for (const CountedEffects& counted : counted_) {
+    std::vector<EffectRecord> missing;
+    for (const Literal& one : counted.literals)
+      if (rollout_.facts().facts().contains(one.fact) == one.negated) missing.push_back({one.fact, one.negated});
+    if (counted.literals.size() - missing.size() >= counted.enough)
+      all.insert(all.end(), missing.begin(), missing.end());
+  }
+  return all;
+}
+
 SkillExecution::MissingEffects SkillExecution::missing_effects() const {
   MissingEffects missing;
+  const std::vector<EffectRecord> spare = not_needed();
   for (const EffectRecord& effect : rollout_.recorder().segment(context_.segment).declared_effects) {
-    if (rollout_.facts().facts().contains(effect.fact) == effect.negated) missing.literals.push_back(text_of(effect));
+    if (rollout_.facts().facts().contains(effect.fact) == effect.negated &&
+        std::ranges::find(spare, effect) == spare.end())
+      missing.literals.push_back(text_of(effect));
     missing.pending = missing.pending || rollout_.facts().pending(effect.fact);
   }
   return missing;
@@ -460,6 +479,9 @@ void SkillExecution::end_settling(SkillResult result) {
   SegmentRecord& segment = rollout_.recorder().segment(context_.segment);
   segment.effect_held = missing_.literals.empty();
   segment.missing_effects = missing_.literals;
+  const std::vector<EffectRecord> spare = not_needed();  // which of the counted ones came true is known now
+  std::erase_if(segment.declared_effects,
+                [&](const auto& one) { return std::ranges::find(spare, one) != spare.end(); });
   if (result.ok() && !missing_.literals.empty())
     result = {Reason::effect_mismatch, missing_.literals.front() + " did not come true"};
   finish(std::move(result));

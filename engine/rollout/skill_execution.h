@@ -15,6 +15,7 @@
 #include "engine/rollout/skill_call.h"
 #include "engine/rollout/skill_motion.h"
 #include "engine/rollout/skill_policy.h"
+#include "engine/start/effects.h"
 #include "engine/start/impasse.h"
 #include "engine/start/skills.h"
 
@@ -85,6 +86,7 @@ class SkillExecution {
   bool settled();
   void end_settling(SkillResult result);
   MissingEffects missing_effects() const;
+  std::vector<EffectRecord> not_needed() const;
   bool finish(SkillResult result);
   std::optional<SkillResult> ended() const;
 
@@ -109,8 +111,9 @@ class SkillExecution {
   std::optional<SkillMotion> motion_;
   int settle_segment_ = -1;
   std::int64_t settle_until_ = 0;
-  MissingEffects missing_;            // at the last frame of settling
-  std::optional<Impasse> looked_at_;  // where somebody asks: told if this call fails after all
+  std::vector<CountedEffects> counted_;  // of what the segment declares
+  MissingEffects missing_;               // at the last frame of settling
+  std::optional<Impasse> looked_at_;     // where somebody asks: told if this call fails after all
 };
 
 // Ticks what has begun to its end, making every step that is due.

@@ -127,4 +127,18 @@ std::vector<Literal> ground_effects(const Action& action, const std::vector<std:
   return literals;
 }
 
+std::vector<CountedEffects> counted_effects(const Action& action, const std::vector<std::string>& arguments,
+                                            const Facts& before, const Domain& domain,
+                                            const std::vector<TypedObject>& objects) {
+  std::vector<CountedEffects> counted;
+  Binding binding = binding_of(action, arguments);
+  for (const Effect& effect : action.effects) {
+    if (effect.at_least == 0) continue;
+    CountedEffects& one = counted.emplace_back();
+    Expansion{before, domain, objects, one.literals}.expand(effect, 0, binding);
+    one.enough = std::min(static_cast<std::size_t>(effect.at_least), one.literals.size());
+  }
+  return counted;
+}
+
 }  // namespace stampede

@@ -180,7 +180,11 @@ std::string action_text(const Action& action, const Domain& domain, bool costs) 
                      symbolic::variables_text(action.parameters, Names::pddl) + ")\n    :precondition (and";
   for (const Formula& one : conjuncts) text += "\n      " + symbolic::formula_text(one, Names::pddl);
   text += ")\n    :effect (and";
-  for (const Effect& effect : action.effects) text += "\n      " + effect_text(effect);
+  for (const Effect& effect : action.effects) {
+    text += "\n      " + effect_text(effect);
+    if (effect.at_least > 0)
+      text += "  ; " + std::to_string(effect.at_least) + " of them are enough afterwards; a plan counts on all";
+  }
   const std::string cost = action.cost_function.empty()
                                ? std::to_string(action.cost)
                                : symbolic::atom_text(action.cost_function, action.cost_terms, Names::pddl);

@@ -55,6 +55,7 @@ struct Effect {
   std::string predicate;
   std::vector<Term> terms;
   bool negated = false;
+  int at_least = 0;  // of a forall: so many of its literals are enough afterwards, 0: all. Plans count on all.
   friend bool operator==(const Effect&, const Effect&) = default;
 };
 

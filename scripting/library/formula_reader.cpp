@@ -78,8 +78,10 @@ class Reader {
       for (const Parameter& variable : inner.forall) open(variable.name);
       effects(one_item(node), result, inner, depth + 1);
       for (std::size_t i = 0; i < inner.forall.size(); ++i) scope_.pop_back();
+    } else if (tag == "at_least") {
+      counted_effects(node, result, frame, depth);
     } else {
-      const bool counts = tag == "at_least" || tag == "any_of" || tag == "any_order" || tag == "exists";
+      const bool counts = tag == "any_of" || tag == "any_order" || tag == "exists";
       fail("an effect is a literal, when or forall, this is " + (counts ? tag : node.type_name()),
            counts
                ? "a plan has to know what holds afterwards, and this leaves open which: a predicate of its own counts, "
@@ -488,6 +490,24 @@ class Reader {
       result.push_back(parameter_from(variable.text.substr(1), domain_, place()));
     }
     return result;
+  }
+
+  // So many of a type, whichever: a skill knows no task's groups.
+  void counted_effects(const Value& node, std::vector<Effect>& result, const Effect& frame, int depth) {
+    if (!frame.forall.empty() || depth > 0) fail("at_least inside a forall", "count in a skill of its own");
+    if (frame.when.kind != Formula::Kind::always)
+      fail("at_least inside a when", "write when inside: at_least(n, type, function(x) return when(…, …) end)");
+    const std::string type = trimmed(node["group"].text), variable = node["variables"].items.at(0).text.substr(1);
+    if (type.ends_with("*"))
+      fail("at_least in an effect takes a type, and '" + type + "' is a group of a task",
+           "at_least(" + std::to_string(static_cast<int>(node["n"].number)) + ", \"" + type.substr(0, type.size() - 1) +
+               "\", …)");
+    Effect inner = frame;
+    inner.forall = {parameter_from(variable + ": " + type, domain_, place())};
+    inner.at_least = static_cast<int>(node["n"].number);
+    open(inner.forall[0].name);
+    effects(one_item(node), result, inner, depth + 1);
+    scope_.pop_back();
   }
 
   // A variable whose range is a group is replaced by each member.

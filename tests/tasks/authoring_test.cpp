@@ -84,6 +84,41 @@ TEST_CASE("formulas name parts of variables, and part_of relates them") {
   CHECK(holds({"part_name", {"chest.top_drawer", "top_drawer"}}));
 }
 
+TEST_CASE("an effect that counts holds when so many do, and the plan is made again from what did") {
+  const EpisodeRecord episode = run_authors("fill_the_dish");
+  INFO(episode.detail);
+  REQUIRE(episode.outcome == Outcome::success);
+  std::vector<std::set<std::string>> filled;  // by call: the beans that it says it has put inside
+  for (const SegmentRecord& segment : episode.labels.segments) {
+    if (segment.skill != "fill_some") continue;
+    CHECK(segment.effect_held == true);
+    CHECK(segment.missing_effects.empty());
+    std::set<std::string>& beans = filled.emplace_back();
+    for (const EffectRecord& effect : segment.declared_effects)
+      if (effect.fact.predicate == "inside" && !effect.negated) beans.insert(effect.fact.arguments[0]);
+    CHECK(beans.contains(segment.arguments[0]));
+  }
+  REQUIRE(filled.size() == 2);  // a plan counts on all after the first
+  CHECK(filled[0].size() == 1);
+  CHECK(filled[1].size() == 2);  // what is inside already is among them
+  CHECK(replay_episode(episode) == "");
+}
+
+TEST_CASE("an effect that counts does not hold while too few do") {
+  const Domain& domain = authors()->domain_of("fill_the_dish");
+  Action fill = *domain.action("fill_some");
+  const std::vector<TypedObject> objects = {
+      {"bean1", "food"}, {"bean2", "food"}, {"dish", "dish"}, {"panda.hand", "hand"}};
+  const std::vector<std::string> arguments = {"bean1", "dish", "panda.hand"};
+  const auto counted = counted_effects(fill, arguments, {}, domain, objects);
+  REQUIRE(counted.size() == 1);
+  CHECK(counted[0].enough == 1);
+  CHECK(counted[0].literals.size() == 2);
+  for (Effect& effect : fill.effects)
+    if (effect.at_least > 0) effect.at_least = 5;
+  CHECK(counted_effects(fill, arguments, {}, domain, objects)[0].enough == 2);  // no more than there are
+}
+
 TEST_CASE("a lid on a thread is a thing of its own: it is unscrewed, let go of, and put down like any other") {
   RunOptions options;
   options.seed = 3;

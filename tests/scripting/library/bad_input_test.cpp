@@ -686,9 +686,20 @@ TEST_CASE("golden: what many say of things that can be said of one alone, and of
 TEST_CASE("golden: effects that leave open what holds, or forget the hand") {
   const std::string counted = said("skills/pick.lua", "is_not.on(\"obj\", \"from\")",
                                    "at_least(2, \"block*\", function(x) return is.on(x, \"from\") end)");
-  CHECK(counted.find("skills/pick.lua:5: effect: an effect is a literal, when or forall, this is at_least\n"
-                     "    a plan has to know what holds afterwards, and this leaves open which: a predicate of its own "
-                     "counts") == 0);
+  CHECK(
+      counted.find("skills/pick.lua:5: effect: at_least in an effect takes a type, and 'block*' is a group of a task\n"
+                   "    at_least(2, \"block\", …)") == 0);
+  const auto effect = [](const std::string& text) {
+    return said("skills/pick.lua", "is_not.on(\"obj\", \"from\")", text);
+  };
+  const auto says = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+  const std::string some = "at_least(1, \"surface\", function(x) return is_not.on(\"obj\", x) end)";
+  CHECK(effect(some) == "");
+  CHECK(says(effect("at_least(1, \"surfce\", function(x) return is_not.on(\"obj\", x) end)"),
+             "neither a type nor a trait"));
+  CHECK(says(effect("forall(\"?s: surface\", " + some + ")"), "at_least inside a forall"));
+  CHECK(says(effect("when(is.on(\"obj\", \"from\"), " + some + ")"), "at_least inside a when"));
+  CHECK(says(effect("any_of { " + some + " }"), "this is any_of"));
   Files files = sound_files();
   files["worlds/predicates/hand_empty.lua"] =
       "-- Empty.\nreturn predicate {\n  params = { \"hand: hand\" },\n  label = \"the hand is empty\",\n"
