@@ -6,6 +6,7 @@
 
 #include "engine/base/enum_names.h"
 #include "engine/base/error.h"
+#include "engine/base/nearest.h"
 
 namespace stampede {
 namespace {
@@ -194,5 +195,10 @@ std::optional<ControllerKind> controller_from(std::string_view name) {
   return enum_from<ControllerKind>(kControllers, name);
 }
 std::vector<std::string> controller_names() { return {kControllers.begin(), kControllers.end()}; }
+
+void check_controller(std::string_view name, const std::string& place) {
+  if (controller_from(name)) return;
+  throw Error(place, "there is no controller '" + std::string(name) + "'", did_you_mean(name, controller_names()));
+}
 
 }  // namespace stampede

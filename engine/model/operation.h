@@ -16,6 +16,8 @@ enum class ControllerKind { joint_position, joint_impedance, cartesian_impedance
 std::string_view to_string(ControllerKind kind);
 std::optional<ControllerKind> controller_from(std::string_view name);
 std::vector<std::string> controller_names();
+// Throws Error with the nearest name for one that there is not.
+void check_controller(std::string_view name, const std::string& place);
 
 // Everything that changes a world from outside is one of these: writer, reader and replayer share the list.
 // Operations take effect at the step at which they are applied. `robot`: which robot of the scene, from 0.

@@ -91,10 +91,8 @@ void check_settings(const SkillInfo& skill, const CallSettings& set, const std::
 
 void add_setting(std::string_view name, std::string_view value, CallSettings& set, const std::string& place) {
   if (name == "controller") {
+    check_controller(value, place);
     set.controller = controller_from(value);
-    if (!set.controller)
-      throw Error(place, "there is no controller '" + std::string(value) + "'",
-                  did_you_mean(value, controller_names()));
     return;
   }
   CallSettings::Value one;

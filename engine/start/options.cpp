@@ -8,6 +8,8 @@
 #include "engine/base/enum_names.h"
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
+#include "engine/model/operation.h"
+#include "engine/motion/planner.h"
 #include "engine/record/observation.h"
 #include "engine/start/call_settings.h"
 #include "engine/symbolic/pddl.h"
@@ -113,8 +115,8 @@ RunOptions options_from(const std::map<std::string, std::string>& text) {
   number("tries_per_episode", options.tries_per_episode);
   number("plans", options.plans);
   number("draws", options.draws);
-  with("controller", [&](const auto& told) { options.controller = told; });
-  with("motion_planner", [&](const auto& told) { options.motion_planner = told; });
+  with("controller", [&](const auto& told) { check_controller(options.controller = told, "controller"); });
+  with("motion_planner", [&](const auto& told) { check_motion_planner(options.motion_planner = told, "motion_planner"); });
   with("set", [&](const auto& told) {
     for (const std::string& one : split(told, ' ')) add_skill_setting(one, options.set, "set");
   });

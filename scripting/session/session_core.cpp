@@ -62,6 +62,7 @@ RunOptions options_of(const EpisodeRequest& request) {
   options.behaviour = request.behaviour;
   options.skills = request.skills;
   options.on_failure = request.on_failure;
+  if (!request.controller.empty()) check_controller(request.controller, "EpisodeRequest::controller");
   options.controller = request.controller;
   check_motion_planner(request.motion_planner, "EpisodeRequest::motion_planner");
   options.motion_planner = request.motion_planner;

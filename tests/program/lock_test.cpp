@@ -225,6 +225,8 @@ TEST_CASE("a lock that this program cannot keep is refused before work starts") 
       {"\"episodes\": 2,", "\"episodes\": 3,", "another number of episodes than it lists"},
       {"\"split\": \"train\"", "\"split\": \"test\"", "the test split has seeds from 1000000 up"},
       {"\"on_failure\": \"undo\"", "\"on_failure\": \"pray\"", "of the option 'on_failure'"},
+      {"\"options\": {", "\"options\": { \"controller\": \"joint\",", "there is no controller 'joint'"},
+      {"\"options\": {", "\"options\": { \"motion_planner\": \"PRM\",", "there is no motion planner 'PRM'"},
       {"[\"reach_target\", \"", "[\"reach_target\", \"no", "has no variation 'no"},
       {"\"hash\": ", "\"ha\": ", "there is no field 'ha'"}};
   const Shelf shelf;

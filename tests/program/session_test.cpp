@@ -140,6 +140,8 @@ TEST_CASE("a program's mistakes are told in words of its own, not in the program
     reset.goal = request.goal;
     refused([&] { environments->environment("stack_blocks", {}).reset(reset); }, words);
   }
+  refused([&] { session.run("stack_blocks", {.controller = "joint_postion"}); },
+          "EpisodeRequest::controller: there is no controller 'joint_postion'");
   refused([&] { session.run("stack_blocks", {.motion_planner = "ompl:RRTConect"}); },
           "EpisodeRequest::motion_planner: ");
   RunRequest both{.tasks = {"stack_blocks"}, .episodes = 2};
