@@ -153,6 +153,7 @@ class Catalogue {
 
  private:
   friend class CatalogueSet;
+  friend class Lake;
   explicit Catalogue(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -11,6 +11,7 @@
 #include "db/frame_labels.h"
 #include "db/functions.h"
 #include "db/known_keys.h"
+#include "db/lake.h"
 #include "db/read_only.h"
 #include "db/table_copier.h"
 #include "engine/base/stopping.h"
@@ -68,6 +69,8 @@ struct CatalogueSet::Impl {
     std::int64_t there;
   };
 
+  std::optional<Lake> lake;         // instead of all below
+  Lake::Place told;                 // the last that was asked for
   std::deque<Member> members;       // which stay where they are
   std::vector<Location> locations;  // of episode 1, 2 …
   KnownKeys keys;
@@ -231,6 +234,10 @@ struct CatalogueSet::Impl {
 
 CatalogueSet::CatalogueSet(const std::vector<fs::path>& files) : impl_(std::make_unique<Impl>()) {
   std::error_code ignored;
+  if (files.size() == 1 && fs::is_directory(files.front(), ignored)) {
+    impl_->lake.emplace(files.front());
+    return;
+  }
   for (const fs::path& file : files) {
     const auto same = [&](const Impl::Member& member) { return fs::equivalent(member.path, file, ignored); };
     if (std::none_of(impl_->members.begin(), impl_->members.end(), same)) impl_->members.emplace_back(file);
@@ -247,6 +254,7 @@ CatalogueSet& CatalogueSet::operator=(CatalogueSet&&) noexcept = default;
 
 void CatalogueSet::query(std::string_view question, RowReceiver& receiver, const QueryOptions& options) const {
   Impl& impl = *impl_;
+  if (impl.lake) return impl.lake->query(question, receiver, options);
   if (impl.members.size() == 1) return impl.members.front().catalogue.query(question, receiver, options);
   impl.interrupted = false;
   const std::string text = text_of_question(question);
@@ -264,12 +272,19 @@ QueryResult CatalogueSet::query(std::string_view question, const QueryOptions& o
 
 void CatalogueSet::interrupt() const {
   impl_->interrupted = true;
+  if (impl_->lake) impl_->lake->interrupt();
   for (const Impl::Member& member : impl_->members) member.catalogue.interrupt();
   const std::scoped_lock lock(impl_->opening);
   if (impl_->together) sqlite3_interrupt(impl_->together.handle());
 }
 
+std::int64_t CatalogueSet::not_indexed() const { return impl_->lake ? impl_->lake->not_indexed() : 0; }
+
 CatalogueSet::Place CatalogueSet::place(std::int64_t episode) const {
+  if (impl_->lake) {
+    impl_->told = impl_->lake->place(episode);
+    return {*impl_->told.catalogue, impl_->told.episode};
+  }
   if (impl_->members.size() == 1) return {impl_->members.front().catalogue, episode};
   if (const Impl::Location* location = impl_->find(episode)) return {location->member->catalogue, location->there};
   throw_no_episode(impl_->together, episode);

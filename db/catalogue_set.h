@@ -14,7 +14,7 @@ namespace stampede {
 // Episodes are numbered anew, from 1, file by file as they are given; `file_of` and `number_in_file` tell SQL where one
 // comes from. An episode that two files have is there once. One file alone is asked as Catalogue does, by its own
 // numbers. The tables that a question reads are copied into a database that nobody else sees and that is gone with this
-// program, however it ends; pictures are read where they lie.
+// program, however it ends; pictures are read where they lie. A folder alone is asked by its index (db/lake.h).
 // Lifetime: one thread at a time, but for interrupt().
 // Throws: CatalogueError for a file that cannot serve, for two with other content under one key or that disagree about
 // a variation (it names both), and where there is no room for the copy.
@@ -34,7 +34,8 @@ class CatalogueSet {
     const Catalogue& catalogue;
     std::int64_t episode;  // its number there
   };
-  Place place(std::int64_t episode) const;  // throws Error for an unknown one
+  Place place(std::int64_t episode) const;  // throws Error for an unknown one; of a folder, until the next is asked for
+  std::int64_t not_indexed() const;         // catalogues below a folder that its index does not know
 
  private:
   struct Impl;

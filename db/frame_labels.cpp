@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "db/episode_reader.h"
+#include "db/virtual_table.h"
 
 namespace stampede {
 namespace {
@@ -87,20 +88,6 @@ struct LabelRows : sqlite3_vtab_cursor {
   std::int64_t row_ = -1, width_ = 1;    // row: frame by frame, and skill by skill
 };
 
-template <typename Work>
-int guarded(sqlite3_vtab* table, const Work& work) {
-  try {
-    work();
-    return SQLITE_OK;
-  } catch (const std::bad_alloc&) {
-    return SQLITE_NOMEM;
-  } catch (const std::exception& error) {
-    sqlite3_free(table->zErrMsg);
-    table->zErrMsg = sqlite3_mprintf("%s", error.what());
-    return SQLITE_ERROR;
-  }
-}
-
 int connect(sqlite3* handle, void* made, int, const char* const*, sqlite3_vtab** table, char**) {
   const auto* const table_made = static_cast<const Made*>(made);
   const int code = sqlite3_declare_vtab(
@@ -149,7 +136,7 @@ int close(sqlite3_vtab_cursor* cursor) {
 
 int filter(sqlite3_vtab_cursor* cursor, int named, const char*, int, sqlite3_value** values) {
   const auto& labels = *static_cast<const Labels*>(cursor->pVtab);
-  return guarded(cursor->pVtab, [&] {
+  return sql::guarded(cursor->pVtab, [&] {
     std::vector<std::int64_t> episodes;
     sql::Statement rows(*labels.made->database,
                         named ? "SELECT id FROM main.episode WHERE id = ?1 AND frames > 0"
@@ -165,13 +152,13 @@ int filter(sqlite3_vtab_cursor* cursor, int named, const char*, int, sqlite3_val
 }
 
 int next(sqlite3_vtab_cursor* cursor) {
-  return guarded(cursor->pVtab, [&] { static_cast<LabelRows*>(cursor)->advance(); });
+  return sql::guarded(cursor->pVtab, [&] { static_cast<LabelRows*>(cursor)->advance(); });
 }
 
 int over(sqlite3_vtab_cursor* cursor) { return static_cast<const LabelRows*>(cursor)->over() ? 1 : 0; }
 
 int column(sqlite3_vtab_cursor* cursor, sqlite3_context* context, int which) {
-  return guarded(cursor->pVtab, [&] { static_cast<const LabelRows*>(cursor)->tell(context, which); });
+  return sql::guarded(cursor->pVtab, [&] { static_cast<const LabelRows*>(cursor)->tell(context, which); });
 }
 
 int row_id(sqlite3_vtab_cursor* cursor, sqlite3_int64* id) {

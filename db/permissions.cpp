@@ -92,10 +92,12 @@ bool may_write(int action, const char* first, const char* second) {
   }
 }
 
-int decide(void* data, int action, const char* first, const char* second, const char*, const char*) {
+int decide(void* data, int action, const char* first, const char* second, const char* schema, const char*) {
   const auto& permissions = *static_cast<const Permissions*>(data);
   if (permissions.read && action == SQLITE_READ && first) permissions.read->insert(first);
   bool allowed = action == SQLITE_ATTACH && permissions.may_attach;
+  const bool shows = action == SQLITE_CREATE_VTABLE || (action == SQLITE_INSERT && is_one_of(first, {"sqlite_master"}));
+  allowed |= shows && permissions.may_show && is_one_of(schema, {"temp"});
   switch (permissions.purpose) {
     case Purpose::question:
       allowed |= reads(action, first, second) || (action == SQLITE_PRAGMA && is_harmless_pragma(first, second));

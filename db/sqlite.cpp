@@ -110,15 +110,28 @@ void Database::fail(int code) const {
 
 void Database::close() { handle_.reset(); }
 
+namespace {
+// True while it lives.
+class Allowed {
+ public:
+  explicit Allowed(bool& permission) : permission_(permission) { permission_ = true; }
+  ~Allowed() { permission_ = false; }
+  Allowed(const Allowed&) = delete;
+  Allowed& operator=(const Allowed&) = delete;
+
+ private:
+  bool& permission_;
+};
+}  // namespace
+
 void Database::attach(const std::string& uri, const std::string& name) const {
-  permissions_->may_attach = true;
-  try {
-    Statement(*this, "ATTACH ?1 AS " + quoted_name(name)).run(uri);
-  } catch (...) {
-    permissions_->may_attach = false;
-    throw;
-  }
-  permissions_->may_attach = false;
+  const Allowed allowed(permissions_->may_attach);
+  Statement(*this, "ATTACH ?1 AS " + quoted_name(name)).run(uri);
+}
+
+void Database::show(const std::string& table, const std::string& module) const {
+  const Allowed allowed(permissions_->may_show);
+  run("CREATE VIRTUAL TABLE temp." + quoted_name(table) + " USING " + quoted_name(module));
 }
 
 void Database::only_read() const { permissions_->purpose = Purpose::read; }

@@ -48,8 +48,9 @@ class Database {
   [[noreturn]] void fail(int code) const;  // throws CatalogueError with the cure for this code
   void close();                            // throws nothing
 
-  void attach(const std::string& uri, const std::string& name) const;  // of ours: no name comes from a file
-  void only_read() const;                                              // from now on
+  void attach(const std::string& uri, const std::string& name) const;    // of ours: no name comes from a file
+  void show(const std::string& table, const std::string& module) const;  // a temporary table of a module of ours
+  void only_read() const;                                                // from now on
 
  private:
   friend class AsQuestion;

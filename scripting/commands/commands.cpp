@@ -13,11 +13,11 @@ namespace stampede::program {
 // A new command is one file in this folder and one line here.
 const std::vector<CommandRow>& all_commands() {
   static const std::vector<CommandRow> commands = {
-      list_command(),       check_command(),     run_command(),     evaluate_command(), show_command(),
-      plan_command(),       validate_command(),  query_command(),   merge_command(),    lock_command(),
-      make_command(),       verify_command(),    cluster_command(), export_command(),   import_command(),
-      paraphrase_command(), questions_command(), dataset_command(), baseline_command(), score_command(),
-      replay_command(),     render_command(),    new_command(),     doc_command(),
+      list_command(),   check_command(),      run_command(),       evaluate_command(), show_command(),
+      plan_command(),   validate_command(),   query_command(),     index_command(),    merge_command(),
+      lock_command(),   make_command(),       verify_command(),    cluster_command(),  export_command(),
+      import_command(), paraphrase_command(), questions_command(), dataset_command(),  baseline_command(),
+      score_command(),  replay_command(),     render_command(),    new_command(),      doc_command(),
   };
   return commands;
 }

@@ -36,6 +36,7 @@ CommandRow baseline_command();
 CommandRow questions_command();
 CommandRow cluster_command();
 CommandRow merge_command();
+CommandRow index_command();
 CommandRow lock_command();
 CommandRow make_command();
 CommandRow verify_command();

@@ -1,6 +1,6 @@
 # bash completion of stampede: source this file
 _stampede() {
-  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query merge lock make verify cluster export import paraphrase questions dataset baseline score replay render new doc --help --version"
+  local word="${COMP_WORDS[COMP_CWORD]}" words="list check run evaluate show plan validate query index merge lock make verify cluster export import paraphrase questions dataset baseline score replay render new doc --help --version"
   [ "$COMP_CWORD" -gt 1 ] && case "${COMP_WORDS[1]}" in
     list) words="--sheet --hash --force --root --path --json --help" ;;
     check) words="--physics --why --pictures --episodes --seed --randomise --workers --force --root --path --json --help" ;;
@@ -10,6 +10,7 @@ _stampede() {
     plan) words="--variation --seed --pddl --task-sized --bddl --leave-out --where --goal --k --expansions --planner --root --path --json --help" ;;
     validate) words="--root --path --json --help" ;;
     query) words="--format --list --views --datasette --hash --root --path --json --help" ;;
+    index) words="--root --path --json --help" ;;
     merge) words="--mixed --root --path --json --help" ;;
     lock) words="--root --path --json --help" ;;
     make) words="--out --workers --shard --anyway --root --path --json --help" ;;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <atomic>
 #include <chrono>
 #include <ostream>
@@ -62,6 +64,9 @@ TextFormat format_of(const Arguments& arguments) {
 ExitCode answer(const Arguments& arguments, RowWriter& writer, Console& console) {
   const std::vector<std::string>& files = arguments.list("FILE");
   const CatalogueSet catalogue({files.begin(), files.end()});
+  if (const std::int64_t unknown = catalogue.not_indexed(); unknown > 0)
+    console.err << fmt::format("{} catalogues below {} are not in its index: `stampede index {}`\n", unknown,
+                               files.front(), files.front());
   try {
     const StopsQuestion stops(catalogue, console);
     catalogue.query(arguments.text("QUESTION"), writer);
@@ -126,8 +131,10 @@ CommandRow query_command() {
       "described in db/README.md, and by --views; --list names the ready questions. Several files are asked as one: "
       "episodes are numbered anew, file by file, one that two files have is counted once, and file_of(episode) and "
       "number_in_file(episode) say where a row is from. Tables that the question reads are copied aside for it, into "
-      "a file without a name in SQLITE_TMPDIR or /var/tmp, pictures are not.",
-      {{"FILE", "the catalogues", false, true}, {"QUESTION", "SQL, or a name", false, false}},
+      "a file without a name in SQLITE_TMPDIR or /var/tmp, pictures are not. A folder is asked by the index that "
+      "`stampede index` makes of all catalogues below it.",
+      {{"FILE", "the catalogues, or a folder with an index", false, true},
+       {"QUESTION", "SQL, or a name", false, false}},
       {{"--format", "NAME", "how to print", Takes::text, "table", {"table", "csv", "json"}, false},
        {"--list", "", "name the ready questions", Takes::flag, "", {}, false},
        {"--views", "", "say what the views and their columns mean", Takes::flag, "", {}, false},
@@ -147,6 +154,7 @@ CommandRow query_command() {
         false}},
       {"stampede query demos.db failures_by_reason",
        "stampede query demos.db \"SELECT task, count(*) FROM demos GROUP BY task\" --format csv",
+       "stampede query run2 \"SELECT task, count(*) FROM segments GROUP BY task\"",
        "stampede query part1.db part2.db \"SELECT file_of(episode), task, count(*) FROM episodes GROUP BY 1, 2\""},
       do_query};
 }

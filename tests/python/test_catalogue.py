@@ -5,6 +5,8 @@ from __future__ import annotations
 import multiprocessing
 import os
 import pickle
+import shutil
+import subprocess
 import threading
 from pathlib import Path
 
@@ -68,6 +70,21 @@ def test_several_files_are_read_as_one(demos: stampede.Catalogue, made: Path, tm
     assert len(stampede.Catalogue(made, made)) == 3  # an episode that is there twice is counted once
     with pytest.raises(stampede.CatalogueError, match="no such file"):
         stampede.Catalogue(made, tmp_path / "none.db")
+
+
+def test_a_folder_is_read_by_its_index(demos: stampede.Catalogue, made: Path, tmp_path: Path) -> None:
+    shutil.copy(made, tmp_path / "part1.db")
+    with pytest.raises(stampede.CatalogueError, match="has no index"):
+        stampede.Catalogue(tmp_path)
+    program = Path(stampede.__file__).parent / "engine/bin/stampede"
+    subprocess.run([program, "index", tmp_path], check=True)
+    folder = stampede.Catalogue(tmp_path)
+    assert len(folder) == len(demos) == 3
+    for mine, theirs in zip(folder, demos, strict=True):
+        assert np.array_equal(
+            mine.arrays("joint_positions")["joint_positions"], theirs.arrays("joint_positions")["joint_positions"]
+        )
+    assert np.array_equal(folder[1].pictures("front_rgb", [0]), demos[1].pictures("front_rgb", [0]))
 
 
 def test_arrays_are_views_of_the_engines_memory(demos: stampede.Catalogue) -> None:

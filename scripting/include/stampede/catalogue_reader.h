@@ -45,6 +45,7 @@ struct PictureFramesRequest {
 // Throws: CatalogueError for a file that cannot serve, Error for unknown episodes, columns and bad SQL.
 class STAMPEDE_EXPORT CatalogueReader {
  public:
+  // A file; or a folder for which `stampede index` has made an index: all catalogues below it, read as one.
   explicit CatalogueReader(const std::filesystem::path& file);
   // Several read as one, `CatalogueReader(std::vector<std::filesystem::path>{"a.db", "b.db"})`: episodes are numbered
   // anew, file by file, one that two files have is there once, and `file_of(episode)` and `number_in_file(episode)`

@@ -172,7 +172,7 @@ FROM episodes"""
 
 
 class Catalogue:
-    """A file of episodes, to be read; or several, read as one.
+    """A file of episodes, to be read; or several, read as one; or a folder with an index (`stampede index DIR`).
 
     Of several (`Catalogue("a.db", "b.db")`), episodes are numbered anew, file by file, and one that two files have is
     there once. `file_of(episode)` and `number_in_file(episode)` tell SQL where a row is from. What a question reads,
