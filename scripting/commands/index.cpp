@@ -39,7 +39,7 @@ CommandRow index_command() {
       "of the merged file: an episode that two files have counts once, other content under one key is an error.",
       {{"DIR", "the folder", true, false}},
       {},
-      {"stampede index run2"},
+      {"stampede index shards"},
       do_index};
 }
 

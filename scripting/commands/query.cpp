@@ -154,7 +154,7 @@ CommandRow query_command() {
         false}},
       {"stampede query demos.db failures_by_reason",
        "stampede query demos.db \"SELECT task, count(*) FROM demos GROUP BY task\" --format csv",
-       "stampede query run2 \"SELECT task, count(*) FROM segments GROUP BY task\"",
+       "stampede query shards \"SELECT task, count(*) FROM segments GROUP BY task\"",
        "stampede query part1.db part2.db \"SELECT file_of(episode), task, count(*) FROM episodes GROUP BY 1, 2\""},
       do_query};
 }

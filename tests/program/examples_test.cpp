@@ -88,7 +88,10 @@ class Workplace {
       fs::permissions(program, fs::perms::owner_all);
     }
     setenv("PATH", (folder_.text() + ":" + path_).c_str(), 1);
-    for (const char* part : {"part1.db", "part2.db", "old.db", "now.db", "buttons.db"}) fs::copy_file("demos.db", part);
+    fs::create_directory("shards");
+    for (const char* part : {"shards/part1.db", "part1.db", "part2.db", "old.db", "now.db", "buttons.db"})
+      fs::copy_file("demos.db", part);
+    REQUIRE(say({"index", "shards"}).code == kDone);
   }
   ~Workplace() {
     fs::current_path(before_);
