@@ -116,7 +116,8 @@ RunOptions options_from(const std::map<std::string, std::string>& text) {
   number("plans", options.plans);
   number("draws", options.draws);
   with("controller", [&](const auto& told) { check_controller(options.controller = told, "controller"); });
-  with("motion_planner", [&](const auto& told) { check_motion_planner(options.motion_planner = told, "motion_planner"); });
+  with("motion_planner",
+       [&](const auto& told) { check_motion_planner(options.motion_planner = told, "motion_planner"); });
   with("set", [&](const auto& told) {
     for (const std::string& one : split(told, ' ')) add_skill_setting(one, options.set, "set");
   });
