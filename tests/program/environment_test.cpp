@@ -501,6 +501,58 @@ TEST_CASE("a saved state branches: the same future, bit for bit, here and in ano
   CHECK_THROWS_WITH(one.restore({}), Catch::Contains("empty state"));
 }
 
+TEST_CASE("going back takes with it what was recorded since, and what was seen is seen again") {
+  const EnvironmentSettings settings{
+      .channels = {"facts", "applicable", "feasible_skills", "plan", "goal", "pddl", "sentences", "gripper_pose"},
+      .record = true};
+  Environment straight = environment("stack_blocks", settings), winding = environment("stack_blocks", settings);
+  const auto same = [](const EnvironmentObservation& a, const EnvironmentObservation& b) {
+    REQUIRE(a.channels.size() == b.channels.size());
+    for (std::size_t i = 0; i < a.channels.size(); ++i) {
+      INFO(a.channels[i].name);
+      CHECK(a.channels[i].data == b.channels[i].data);
+    }
+  };
+  straight.reset({.seed = 6});
+  winding.reset({.seed = 6});
+  const TaskPlan plan = session()->plan("stack_blocks", {.seed = 6});
+  const EnvironmentObservation first = winding.observe();
+  const SavedState begin = winding.save();
+  straight.save();  // what is saved is marked among the commands
+  winding.step(skill(plan.steps.at(0)));
+  winding.step(skill(plan.steps.at(1)));
+  winding.restore(begin);
+  same(winding.observe(), first);
+  for (Environment* world : {&straight, &winding})
+    for (const TaskPlanStep& step : plan.steps) world->step(skill(step));
+  same(winding.observe(), straight.observe());
+  const Episode a = straight.episode(), b = winding.episode();
+  CHECK(a.record->labels.grasps.size() == 2 * plan.steps.size() / 4);
+  CHECK(b.record->labels.grasps.size() == a.record->labels.grasps.size());
+  CHECK(b.record->labels.vias.size() == a.record->labels.vias.size());
+  CHECK(b.record->labels.segments.size() == a.record->labels.segments.size());
+  CHECK(b.record->labels.contacts.size() == a.record->labels.contacts.size());
+  CHECK(b.record->frames.size() == a.record->frames.size());
+  CHECK(b.record->agent_actions == a.record->agent_actions);
+  CHECK(b.record->made.key == a.record->made.key);
+}
+
+TEST_CASE("where one thing is, seen from another") {
+  Environment world = environment("stack_blocks", {.channels = {"object_pose_in/block1/block2", "object_pose"}});
+  const EnvironmentObservation now = world.reset({.seed = 6});
+  const std::vector<double>&seen = now["object_pose_in/block1/block2"].reals(),
+        &one = now["object_pose/block1"].reals(), &two = now["object_pose/block2"].reals();
+  REQUIRE(seen.size() == 7);
+  const auto distance = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  };
+  CHECK(std::abs(distance(one, two) - distance(seen, {0, 0, 0})) < 1e-9);
+  CHECK_THROWS_WITH(environment("stack_blocks", {.channels = {"object_pose_in/block1/blok2"}}).reset({.seed = 6}),
+                    Catch::Contains("there is no 'blok2' here") && Catch::Contains("block2"));
+  CHECK_THROWS_WITH(environment("stack_blocks", {.channels = {"object_pose_in/block1"}}).reset({.seed = 6}),
+                    Catch::Contains("there is no '' here"));
+}
+
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their allocators count nothing here
 TEST_CASE("a saved state shares what was recorded before it: it costs the same however long that is") {
   Environment world = environment("reach_target", {.channels = {"joint_positions"}, .horizon_s = 200, .record = true});

@@ -98,6 +98,24 @@ TEST_CASE("a policy is the body of a skill: planned, tested, labelled, and repla
   CHECK(asked.back().end_frame <= skill.span.end_frame);
 }
 
+TEST_CASE("a policy sees pictures of the size that it was registered with, and only those") {
+  const Folder folder;
+  const auto core = session(folder, R"(policy("looks", { seconds = 0.1 }),)");
+  std::vector<std::vector<std::int64_t>> shapes;
+  PolicyEntry looks = entry([&](const EnvironmentObservation& now, int) {
+    CHECK(now.channels.size() == 1);
+    const auto& shape = now["front_rgb"].shape;
+    shapes.emplace_back(shape.begin(), shape.end());
+    return std::optional<AgentAction>(AgentAction{.space = "hold"});
+  });
+  looks.channels = {"front_rgb"};
+  looks.width = 24, looks.height = 16;
+  core->add_policy("looks", looks);
+  core->run("reach_target", {.seed = 4, .on_failure = OnFailure::stop});
+  REQUIRE_FALSE(shapes.empty());
+  for (const auto& shape : shapes) CHECK(shape == std::vector<std::int64_t>{16, 24, 3});
+}
+
 TEST_CASE("a policy that fails ends its skill with the reason, and undo takes it back") {
   const Folder folder;
   const std::vector<std::pair<PolicyEntry, std::string>> bad = {
