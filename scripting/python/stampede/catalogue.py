@@ -242,4 +242,4 @@ def _optional(module: str) -> Any:
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        raise ImportError(f'{module} is missing\n    pip install "stampede[tables]"') from error
+        raise ImportError(f'{module} is missing\n    pip install "stampede-sim[tables]"') from error

@@ -13,7 +13,7 @@ def pillow(extra: str) -> Any:
     try:
         from PIL import Image
     except ImportError as error:
-        raise ImportError(f'Pillow is missing\n    pip install "stampede[{extra}]"') from error
+        raise ImportError(f'Pillow is missing\n    pip install "stampede-sim[{extra}]"') from error
     return Image
 
 

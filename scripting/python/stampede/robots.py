@@ -30,7 +30,7 @@ def pinocchio() -> Any:
     try:
         import pinocchio
     except ImportError as error:
-        raise ImportError('Pinocchio is missing\n    pip install "stampede[recordings]"') from error
+        raise ImportError('Pinocchio is missing\n    pip install "stampede-sim[recordings]"') from error
     return pinocchio
 
 

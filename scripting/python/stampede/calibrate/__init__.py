@@ -1,7 +1,7 @@
 """Cameras calibrated from pictures of a board: `python -m stampede.calibrate WHAT SOURCE --board BOARD`.
 
 `intrinsics` finds a lens, `extrinsics` where cameras are in the robot's base or on its links, what clocks and joints
-are off by, each with its standard deviation. Needs OpenCV and Pinocchio: `pip install "stampede[calibrate]"`.
+are off by, each with its standard deviation. Needs OpenCV and Pinocchio: `pip install "stampede-sim[calibrate]"`.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ def opencv() -> Any:
     try:
         import cv2
     except ImportError as error:
-        raise ImportError('OpenCV is missing\n    pip install "stampede[calibrate]"') from error
+        raise ImportError('OpenCV is missing\n    pip install "stampede-sim[calibrate]"') from error
     return cv2
 
 

@@ -27,7 +27,7 @@ def library() -> Any:
     try:
         import h5py
     except ImportError as error:
-        raise ImportError('h5py is missing\n    pip install "stampede[hdf5]"') from error
+        raise ImportError('h5py is missing\n    pip install "stampede-sim[hdf5]"') from error
     return h5py
 
 

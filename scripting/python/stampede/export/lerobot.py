@@ -49,7 +49,7 @@ def tables() -> tuple[Any, Any, Any]:
         import pyarrow
         import pyarrow.parquet
     except ImportError as error:
-        raise ImportError(f'{error.name} is missing\n    pip install "stampede[lerobot]"') from error
+        raise ImportError(f'{error.name} is missing\n    pip install "stampede-sim[lerobot]"') from error
     return pyarrow, pyarrow.parquet, pandas
 
 

@@ -121,7 +121,7 @@ def library() -> Any:
     try:
         from mcap import writer
     except ImportError as error:
-        raise ImportError('mcap is missing\n    pip install "stampede[mcap]"') from error
+        raise ImportError('mcap is missing\n    pip install "stampede-sim[mcap]"') from error
     return writer
 
 

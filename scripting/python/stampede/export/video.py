@@ -21,7 +21,7 @@ def library() -> Any:
     try:
         import av
     except ImportError as error:
-        raise ImportError('av is missing\n    pip install "stampede[lerobot]"') from error
+        raise ImportError('av is missing\n    pip install "stampede-sim[lerobot]"') from error
     return av
 
 

@@ -44,7 +44,7 @@ class McapBagWriter:
             from mcap import writer
             from rosbags.typesys import Stores, get_typestore
         except ImportError as error:
-            raise ImportError(f'{error.name} is missing\n    pip install "stampede[recordings]"') from error
+            raise ImportError(f'{error.name} is missing\n    pip install "stampede-sim[recordings]"') from error
         self._path, self._part = path, path.with_name(path.name + ".part")
         self._library = writer
         self._types = get_typestore(Stores.ROS2_HUMBLE)

@@ -19,7 +19,7 @@ _MAGIC = b"\x89MCAP0\r\n"
 _SQLITE = b"SQLite format 3\x00"
 _ROS_1 = b"#ROSBAG"
 _METADATA = "metadata.yaml"
-_INSTALL = '\n    pip install "stampede[recordings]"'
+_INSTALL = '\n    pip install "stampede-sim[recordings]"'
 _CUT = "the recorder was stopped hard, or a copy was cut off"
 
 
