@@ -270,8 +270,11 @@ TEST_CASE("labels come later too, and take the place of those of the same sort")
   const std::int64_t id = *catalogue.add_if_new(lab.import(), kEngine);
   EpisodeRecord e = catalogue.read_episode(id);
   const auto rows = [&](const std::string& of) { return catalogue.query("SELECT * FROM " + of).rows; };
-  const auto facts = rows("facts"), sentences = rows("instructions");
-  REQUIRE((!e.labels.segments.empty() && !facts.empty() && !sentences.empty()));
+  e.labels.keyframes["by_hand"] = {0, 7, 40};
+  catalogue.set_labels(id, e);
+  const auto facts = rows("facts"), sentences = rows("instructions"),
+             keyframes = rows("(SELECT method, frame FROM keyframes)");
+  REQUIRE((!e.labels.segments.empty() && !facts.empty() && !sentences.empty() && keyframes.size() > 2));
   for (const std::string skill : {"wave", "wave", "point"}) {
     SegmentRecord segment;
     segment.kind = SegmentKind::skill, segment.skill = skill, segment.span = {0, 1'000'000, 0, 20};
@@ -284,5 +287,6 @@ TEST_CASE("labels come later too, and take the place of those of the same sort")
     CHECK(rows("segments WHERE labelled_by = 'model' AND skill = '" + skill + "'").size() == 1);
     CHECK(rows("facts") == facts);
     CHECK(rows("instructions") == sentences);
+    CHECK(rows("(SELECT method, frame FROM keyframes)") == keyframes);
   }
 }

@@ -49,6 +49,26 @@ TEST_CASE("labels become segments in order, with parents, and sentences that nam
   CHECK(labels.language[1].grain == LanguageGrain::motions);
 }
 
+TEST_CASE("what is put takes the place of its sort: sentences of the same level, and of segments that are gone") {
+  EpisodeRecord e = two_seconds();
+  const LanguageRecord task{LanguageLevel::task, "an old task"}, world{LanguageLevel::world, "an old world"},
+      skill{LanguageLevel::skill, "an old skill", 0};
+  e.labels.language = {task, world, skill};
+  e.labels.segments.resize(1);
+  e.labels.facts.resize(2);
+  const LanguageRecord other{LanguageLevel::task, "another task"};
+  put_labels({{}, {}, {other}}, e);
+  CHECK(e.labels.language == std::vector{world, skill, other});
+  CHECK((e.labels.segments.size() == 1 && e.labels.facts.size() == 2));
+  SegmentRecord wave;
+  wave.skill = "wave";
+  put_labels({{wave}, {}, {}}, e);
+  CHECK(e.labels.language == std::vector{world, other});
+  CHECK(e.labels.segments.at(0).skill == "wave");
+  put_labels({{}, std::vector<FactRecord>(3), {}}, e);
+  CHECK(e.labels.facts.size() == 3);
+}
+
 TEST_CASE("what begins at the last frame has no time left") {
   const auto at = [](int first, int end) {
     return labels_of(
