@@ -349,6 +349,13 @@ TEST_CASE("a query cannot write") {
   CHECK(filled.catalogue.episodes().size() == 1);
 }
 
+TEST_CASE("one statement is a question, whatever blanks and semicolons follow it") {
+  const Filled filled;
+  for (const std::string end : {"", ";", " ; \n", ";;", "\t"})
+    CHECK(std::get<std::int64_t>(filled.catalogue.query("SELECT 7" + end).rows.at(0)[0]) == 7);
+  CHECK_THROWS_WITH(filled.catalogue.query("SELECT 7; SELECT 8"), Contains("one"));
+}
+
 TEST_CASE("a query may ask what columns there are") {
   const Filled filled;
   CHECK(filled.catalogue.query("SELECT name FROM pragma_table_info('demos')").rows.size() > 10);

@@ -126,6 +126,12 @@ TEST_CASE("data sets for research problems", "[research]") {
            {problem.title, problem.serves, research::dataset_id(given), std::string("## Splits")})
         CHECK(says(page, part));
       for (const std::string& table : given.tables()) CHECK(says(page, "`" + table + "`"));
+      for (const research::TableUse& use : problem.given) {
+        const std::string of = use.part == research::Part::all    ? "all"
+                               : use.part == research::Part::test ? "test"
+                                                                  : "train, validation";
+        CHECK(says(page, "| `" + use.table() + "` | " + of + " |"));
+      }
       CHECK(says(file_text(made().hidden(problem.name) + "/README.md"), "pick_and_lift, stack_blocks"));
       CHECK(fs::exists(made().given(problem.name) + "/answers.example.json"));
       for (const research::TableUse& use : problem.hidden)

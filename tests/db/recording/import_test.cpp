@@ -4,6 +4,7 @@
 #include "db/catalogue.h"
 #include "db/recording/export_recording.h"
 #include "db/stored_episode.h"
+#include "engine/base/base64.h"
 #include "engine/model/kinematics.h"
 #include "engine/record/observation.h"
 #include "engine/render/png.h"
@@ -143,6 +144,71 @@ TEST_CASE("a recording is stored with the key that it has alone, whichever of it
     store_recording(lab.folder(), panda_stager(), {{}, {}, workers}, one, kEngine);
     CHECK(one.episode_hash(1) == catalogue.episode_hash(2));
   }
+}
+
+namespace {
+
+// 16 by 8: three channels, one after the other or in passes, and one channel.
+const std::string kJpeg =
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAKBueIx4ZKCMgoy0qqC+8P//8Nzc8P////////////////////////////////////////////////"
+    "//////////2wBDAaq0tPDS8P//////////////////////////////////////////////////////////////////////////////wAARCAAI"
+    "ABADASIAAhEBAxEB/8QAFQABAQAAAAAAAAAAAAAAAAAAAAL/xAAUEAEAAAAAAAAAAAAAAAAAAAAA/8QAFQEBAQAAAAAAAAAAAAAAAAAAAQP/xA"
+    "AUEQEAAAAAAAAAAAAAAAAAAAAA/9oADAMBAAIRAxEAPwCQAo//2Q==";
+const std::string kProgressive =
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAKBueIx4ZKCMgoy0qqC+8P//8Nzc8P////////////////////////////////////////////////"
+    "//////////2wBDAaq0tPDS8P//////////////////////////////////////////////////////////////////////////////wgARCAAI"
+    "ABADASIAAhEBAxEB/8QAFQABAQAAAAAAAAAAAAAAAAAAAAH/xAAVAQEBAAAAAAAAAAAAAAAAAAABAv/aAAwDAQACEAMQAAABgK//xAAUEAEAAA"
+    "AAAAAAAAAAAAAAAAAQ/9oACAEBAAEFAj//xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oACAEDAQE/AX//xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oA"
+    "CAECAQE/AX//xAAUEAEAAAAAAAAAAAAAAAAAAAAQ/9oACAEBAAY/Aj//xAAUEAEAAAAAAAAAAAAAAAAAAAAQ/9oACAEBAAE/IT//2gAMAwEAAg"
+    "ADAAAAEAv/xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oACAEDAQE/EH//xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oACAECAQE/EH//xAAUEAEAAAAA"
+    "AAAAAAAAAAAAAAAQ/9oACAEBAAE/ED//2Q==";
+const std::string kGreyJpeg =
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAKBueIx4ZKCMgoy0qqC+8P//8Nzc8P////////////////////////////////////////////////"
+    "//////////wAALCAAIABABAREA/8QAFQABAQAAAAAAAAAAAAAAAAAAAAL/xAAUEAEAAAAAAAAAAAAAAAAAAAAA/9oACAEBAAA/AIH/2Q==";
+
+// One camera with this picture.
+EpisodeRecord with_picture(const Lab& lab, const std::string& bytes) {
+  lab.add_pictures("front", 1, 100.5, 20, 16, 8);
+  lab.change([](auto& json) { json.erase("cameras"); });  // theirs is of another size
+  lab.write("front/0.JPG", bytes);
+  lab.write("front.csv", "time_s,file\n100.5,0.JPG\n");
+  return lab.import();
+}
+
+}  // namespace
+
+TEST_CASE("colours may be JPEG, baseline or progressive, and are kept byte by byte") {
+  for (const std::string& text : {kJpeg, kProgressive}) {
+    const Lab lab;
+    const std::string jpeg = from_base64(text);
+    const EpisodeRecord e = with_picture(lab, jpeg);
+    REQUIRE(e.images->count() > 0);
+    const std::vector<std::uint8_t> kept = e.images->read(0);
+    CHECK(std::string(kept.begin(), kept.end()) == jpeg);
+    CHECK((e.images->record(0).width == 16 && e.images->record(0).height == 8));
+    Catalogue catalogue = Catalogue::write(lab.folder() / "a.db");
+    catalogue.add(e, kEngine);
+    const auto rows = catalogue.query("SELECT encoding, width, height FROM images LIMIT 1").rows;
+    CHECK(std::get<std::string>(rows.at(0)[0]) == "jpeg");
+    CHECK((std::get<std::int64_t>(rows[0][1]) == 16 && std::get<std::int64_t>(rows[0][2]) == 8));
+    for (std::size_t cut : {std::size_t{3}, std::size_t{20}, std::size_t{170}, jpeg.size() - 1}) {
+      INFO(cut);
+      const Lab other;
+      CHECK_THROWS_WITH(with_picture(other, jpeg.substr(0, cut)), Catch::Contains("front/0.JPG"));
+    }
+    const Lab zeros;  // some cameras fill their buffers
+    CHECK(with_picture(zeros, jpeg + std::string(5, '\0')).images->count() > 0);
+  }
+  const Lab grey, deep;
+  CHECK_THROWS_WITH(with_picture(grey, from_base64(kGreyJpeg)), Catch::Contains("8 bits and 3 channels"));
+  std::string twelve = from_base64(kJpeg);
+  const std::size_t frame = twelve.find("\xff\xc0");
+  twelve[frame + 4] = 12;
+  CHECK_THROWS_WITH(with_picture(deep, twelve), Catch::Contains("8 bits and 3 channels"));
+  const Lab none;
+  std::string unframed = from_base64(kJpeg);
+  unframed[frame + 1] = '\xc4';  // tables, where the frame was
+  CHECK_THROWS_WITH(with_picture(none, unframed), Catch::Contains("front/0.JPG"));
 }
 
 TEST_CASE("a bad picture late in a recording leaves the catalogue as it was, and the first one is named") {
