@@ -64,6 +64,8 @@ struct FarRows : sqlite3_vtab_cursor {
   void read(std::int64_t episode) {
     FarEpisode found = far_.find(episode);
     if (!found.database) {
+      if (!(asked_ & kEpisode))
+        throw Error("", "episode " + std::to_string(episode) + " is nowhere: the index is damaged");
       over_ = true;
       return;
     }

@@ -23,9 +23,10 @@ struct RunInLake {
     fs::create_directories(fs::path(a).parent_path());
     fs::create_directories(fs::path(b).parent_path());
     for (const auto& [file, part] : {std::pair(a, "1/2"), std::pair(b, "2/2")})
-      REQUIRE(say({"run", "reach_target", "push_buttons", "--episodes", "3", "--images", "keyframes", "--size", "16x16",
-                   "--kinds", "rgb,instance", "--channels", "all,margins", "--root", kRoot, "--shard", part, "--out", file})
-                  .code == kDone);
+      REQUIRE(
+          say({"run", "reach_target", "push_buttons", "--episodes", "3", "--images", "keyframes", "--size", "16x16",
+               "--kinds", "rgb,instance", "--channels", "all,margins", "--root", kRoot, "--shard", part, "--out", file})
+              .code == kDone);
     REQUIRE(say({"merge", merged, a, b}).code == kDone);
   }
   nlohmann::json make_index() const {
@@ -160,6 +161,15 @@ TEST_CASE("a folder that cannot be asked is told of with its cure") {
     }
     CHECK(says(answer_of_lake(run.lake, "SELECT count(*) FROM frames").err, "it is damaged"));
     CHECK(answer_of_lake(run.lake, "SELECT file_of(episode) FROM episodes").code != kBug);
+  }
+  SECTION("nor is one that has lost where an episode is") {
+    {
+      sql::Database index(run.index, SQLITE_OPEN_READWRITE, run.index);
+      index.run("DELETE FROM own_lake_episode WHERE episode = 2");
+    }
+    CHECK(says(answer_of_lake(run.lake, "SELECT count(*) FROM frames").err,
+               "episode 2 is nowhere: the index is damaged"));
+    CHECK(answer_of_lake(run.lake, "SELECT count(*) > 0 AS n FROM frames WHERE episode = 3").out == "n\n1\n");
   }
   SECTION("two files that say different things of one episode are named") {
     const std::string other = run.folder / "lake/z.db";
