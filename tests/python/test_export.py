@@ -363,5 +363,5 @@ def test_bad_input(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
     with pytest.raises(stampede.Error, match="not empty"):
         export(["robomimic", str(made), "--out", str(tmp_path / "full")])
     monkeypatch.setitem(sys.modules, "h5py", None)
-    with pytest.raises(ImportError, match=r"stampede\[hdf5\]"):
+    with pytest.raises(ImportError, match=r"stampede-sim\[hdf5\]"):
         export(["robomimic", str(made), "--out", str(tmp_path / "missing")])

@@ -152,7 +152,7 @@ def test_what_is_no_robot(tmp_path: Path) -> None:
 
 def test_without_pinocchio(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pinocchio", None)
-    with pytest.raises(ImportError, match=r'Pinocchio is missing\n    pip install "stampede\[recordings\]"'):
+    with pytest.raises(ImportError, match=r'Pinocchio is missing\n    pip install "stampede-sim\[recordings\]"'):
         robot_of("panda")
 
 
