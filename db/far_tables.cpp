@@ -1,7 +1,6 @@
 #include "db/far_tables.h"
 
 #include <algorithm>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,21 +17,47 @@ struct FarTable {
   Table table;
   FindsFar find;
   int frame_column;  // -2: it has none
-};
 
-struct FarVtab : sqlite3_vtab {
-  const FarTable* far = nullptr;  // which lives as long as the connection
+  int declare(sqlite3* handle) const {
+    const std::string text = "CREATE TABLE far (episode, " + quoted_columns(table.columns) + ")";
+    const int code = sqlite3_declare_vtab(handle, text.c_str());
+    if (code == SQLITE_OK) sqlite3_vtab_config(handle, SQLITE_VTAB_INNOCUOUS);
+    return code;
+  }
+  void plan(sqlite3_index_info& info) const {
+    std::optional<int> episode, frame;
+    for (int i = 0; i < info.nConstraint; ++i) {
+      const auto& one = info.aConstraint[i];
+      if (!one.usable || one.op != SQLITE_INDEX_CONSTRAINT_EQ) continue;
+      if (one.iColumn == 0) episode = i;
+      if (one.iColumn == frame_column) frame = i;
+    }
+    info.idxNum = kAll;
+    info.estimatedCost = 1e9;
+    info.estimatedRows = 10'000'000;
+    if (!episode) return;  // a frame of every episode: read as all are
+    info.idxNum = kEpisode;
+    info.aConstraintUsage[*episode].argvIndex = 1;
+    info.estimatedCost = 1e3;
+    info.estimatedRows = 1'000;
+    if (!frame) return;
+    info.idxNum |= kFrame;
+    info.aConstraintUsage[*frame].argvIndex = 2;
+    info.estimatedCost = 10;
+    info.estimatedRows = 10;
+  }
 };
 
 // Rows of one episode after the other, each read where it lies.
-struct FarRows : sqlite3_vtab_cursor {
-  explicit FarRows(const FarTable& far) : sqlite3_vtab_cursor{}, far_(far) {}
+class FarRows {
+ public:
+  explicit FarRows(const FarTable& far) : far_(far) {}
 
-  void begin(int asked, std::int64_t episode, std::int64_t frame) {
-    asked_ = asked, frame_ = frame;
+  void begin(int asked, sqlite3_value** values) {
+    asked_ = asked, frame_ = asked & kFrame ? sqlite3_value_int64(values[1]) : 0;
     over_ = false;
     if (asked & kEpisode) {
-      read(episode);
+      read(sqlite3_value_int64(values[0]));
     } else {
       if (!episodes_.handle()) episodes_ = {*far_.database, "SELECT id FROM main.episode ORDER BY id", true};
       episodes_.start();
@@ -93,109 +118,14 @@ struct FarRows : sqlite3_vtab_cursor {
   sql::Statement rows_;  // of `open_`: it goes first
 };
 
-const FarTable& far_of(sqlite3_vtab* table) { return *static_cast<const FarVtab*>(table)->far; }
-FarRows& rows_of(sqlite3_vtab_cursor* cursor) { return *static_cast<FarRows*>(cursor); }
-
-int connect_far(sqlite3* handle, void* made, int, const char* const*, sqlite3_vtab** table, char**) {
-  const auto* const far = static_cast<const FarTable*>(made);
-  const std::string text = "CREATE TABLE far (episode, " + quoted_columns(far->table.columns) + ")";
-  const int code = sqlite3_declare_vtab(handle, text.c_str());
-  if (code != SQLITE_OK) return code;
-  sqlite3_vtab_config(handle, SQLITE_VTAB_INNOCUOUS);
-  auto vtab = std::make_unique<FarVtab>();
-  vtab->far = far;
-  *table = vtab.release();
-  return SQLITE_OK;
-}
-
-int disconnect_far(sqlite3_vtab* table) {
-  delete static_cast<FarVtab*>(table);
-  return SQLITE_OK;
-}
-
-int plan_far(sqlite3_vtab* table, sqlite3_index_info* info) {
-  const int frame_column = far_of(table).frame_column;
-  std::optional<int> episode, frame;
-  for (int i = 0; i < info->nConstraint; ++i) {
-    const auto& one = info->aConstraint[i];
-    if (!one.usable || one.op != SQLITE_INDEX_CONSTRAINT_EQ) continue;
-    if (one.iColumn == 0) episode = i;
-    if (one.iColumn == frame_column) frame = i;
-  }
-  info->idxNum = kAll;
-  info->estimatedCost = 1e9;
-  info->estimatedRows = 10'000'000;
-  if (!episode) return SQLITE_OK;  // a frame of every episode: read as all are
-  info->idxNum = kEpisode;
-  info->aConstraintUsage[*episode].argvIndex = 1;
-  info->estimatedCost = 1e3;
-  info->estimatedRows = 1'000;
-  if (frame) {
-    info->idxNum |= kFrame;
-    info->aConstraintUsage[*frame].argvIndex = 2;
-    info->estimatedCost = 10;
-    info->estimatedRows = 10;
-  }
-  return SQLITE_OK;
-}
-
-int open_far(sqlite3_vtab* table, sqlite3_vtab_cursor** cursor) {
-  *cursor = new (std::nothrow) FarRows(far_of(table));
-  return *cursor ? SQLITE_OK : SQLITE_NOMEM;
-}
-
-int close_far(sqlite3_vtab_cursor* cursor) {
-  delete static_cast<FarRows*>(cursor);
-  return SQLITE_OK;
-}
-
-int filter_far(sqlite3_vtab_cursor* cursor, int asked, const char*, int, sqlite3_value** values) {
-  return sql::guarded(cursor->pVtab, [&] {
-    const auto number = [&](int bit, int place) {
-      return asked & bit ? static_cast<std::int64_t>(sqlite3_value_int64(values[place])) : std::int64_t{0};
-    };
-    rows_of(cursor).begin(asked, number(kEpisode, 0), number(kFrame, 1));
-  });
-}
-
-int next_far(sqlite3_vtab_cursor* cursor) {
-  return sql::guarded(cursor->pVtab, [&] { rows_of(cursor).advance(); });
-}
-
-int over_far(sqlite3_vtab_cursor* cursor) { return rows_of(cursor).over() ? 1 : 0; }
-
-int column_far(sqlite3_vtab_cursor* cursor, sqlite3_context* context, int which) {
-  rows_of(cursor).tell(context, which);
-  return SQLITE_OK;
-}
-
-int row_id_far(sqlite3_vtab_cursor* cursor, sqlite3_int64* id) {
-  *id = rows_of(cursor).place();
-  return SQLITE_OK;
-}
-
-void forget_far(void* made) { delete static_cast<FarTable*>(made); }
-
-const sqlite3_module& module_of_far() {
-  static const sqlite3_module module = [] {
-    sqlite3_module one{};
-    one.xCreate = connect_far, one.xDestroy = disconnect_far;  // a temporary table: nothing is made in a file
-    one.xConnect = connect_far, one.xDisconnect = disconnect_far, one.xBestIndex = plan_far;
-    one.xOpen = open_far, one.xClose = close_far, one.xFilter = filter_far, one.xNext = next_far;
-    one.xEof = over_far, one.xColumn = column_far, one.xRowid = row_id_far;
-    return one;
-  }();
-  return module;
-}
-
 }  // namespace
 
 void add_far_table(const sql::Database& database, const Table& table, FindsFar find) {
   const auto frame = std::ranges::find(table.columns, "frame");
   const int column = frame == table.columns.end() ? -2 : static_cast<int>(frame - table.columns.begin()) + 1;
   const std::string name = "far_" + table.name;
-  sqlite3_create_module_v2(database.handle(), name.c_str(), &module_of_far(),
-                           new FarTable{&database, table, std::move(find), column}, forget_far);
+  sql::Module<FarTable, FarRows, sql::Shown::as_table>::add(database.handle(), name.c_str(),
+                                                            new FarTable{&database, table, std::move(find), column});
   database.show(table.name, name);
 }
 
