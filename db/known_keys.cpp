@@ -11,6 +11,15 @@ std::string named(const EpisodeSummary& episode) {
 
 }  // namespace
 
+void refuse_other_content(const std::string& path, const EpisodeSummary& episode, const std::string& other,
+                          std::int64_t there) {
+  throw CatalogueError(path,
+                       "episode " + std::to_string(episode.id) + ", " + named(episode) + ", is in " + other +
+                           " too (episode " + std::to_string(there) + "), with other content",
+                       "they were made by different builds, or one has pictures that the other lacks: leave one "
+                       "of the two files out, or make the episode again");
+}
+
 void KnownKeys::own(const Catalogue& catalogue, const std::filesystem::path& path) {
   for (const EpisodeSummary& episode : catalogue.episodes())
     owners_.emplace(episode.key, Owner{&catalogue, path.string(), episode.id});
@@ -28,11 +37,7 @@ std::vector<std::int64_t> KnownKeys::add(const Catalogue& catalogue, const std::
     const Owner& other = owner->second;
     if (other.catalogue == &catalogue && other.id == episode.id) continue;  // asked before
     if (other.catalogue->episode_hash(other.id) != catalogue.episode_hash(episode.id))
-      throw CatalogueError(path.string(),
-                           "episode " + std::to_string(episode.id) + ", " + named(episode) + ", is in " + other.path +
-                               " too (episode " + std::to_string(other.id) + "), with other content",
-                           "they were made by different builds, or one has pictures that the other lacks: leave one "
-                           "of the two files out, or make the episode again");
+      refuse_other_content(path.string(), episode, other.path, other.id);
     ++existing;
   }
   return fresh;

@@ -11,6 +11,11 @@
 
 namespace stampede {
 
+// Throws CatalogueError naming both files: `episode` of this one is in the other too, by that number, with other
+// content.
+[[noreturn]] void refuse_other_content(const std::string& path, const EpisodeSummary& episode, const std::string& other,
+                                       std::int64_t there);
+
 // Lifetime: the catalogues, which stay where they are.
 class KnownKeys {
  public:

@@ -15,6 +15,7 @@
 #include "db/far_tables.h"
 #include "db/frame_labels.h"
 #include "db/functions.h"
+#include "db/known_keys.h"
 #include "db/read_only.h"
 #include "db/table_copier.h"
 
@@ -191,11 +192,7 @@ class Indexer {
     if (where.start(known).step()) where.read(other, there);
     const fs::path file = folder_ / other;
     if (file == path || Catalogue::open(file).episode_hash(there) == catalogue.episode_hash(episode.id)) return;
-    throw CatalogueError(path.string(),
-                         "episode " + std::to_string(episode.id) + ", " + episode.task + " seed " +
-                             std::to_string(episode.seed) + ", is in " + file.string() + " too, with other content",
-                         "they were made by different builds, or one has pictures that the other lacks: take one of "
-                         "the two files away, or make the episode again");
+    refuse_other_content(path.string(), episode, file.string(), there);
   }
 
   const fs::path& folder_;
