@@ -134,6 +134,12 @@ std::vector<Process> all_processes() {
 
 }  // namespace
 
+std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 std::vector<std::string> environment_without_keys() {
   std::vector<std::string> kept;
   for (char** one = environ; one != nullptr && *one != nullptr; ++one) {

@@ -14,6 +14,9 @@ namespace stampede {
 // PASSWD, PASSPHRASE or CREDENTIALS, after nothing or a `_`, in letters of any size.
 std::vector<std::string> environment_without_keys();
 
+// As one word of a command line of sh, whatever is in it.
+std::string shell_word(const std::string& text);
+
 // A command line that /bin/sh runs. Lifetime: the program's. When this object goes, whatever is left of it is killed:
 // the shell, its group, its descendants, and what has left both behind by forking twice.
 class ShellProgram {

@@ -19,19 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
 // Puts a file's name in place of every `{word}`.
 void fill_in(std::string& command, const std::string& word, const fs::path& file) {
   const std::string mark = "{" + word + "}";
   if (command.find(mark) == std::string::npos) {
     throw Error("--planner", "the command has no " + mark, "write COMMAND {domain} {problem} {plan}");
   }
-  const std::string name = quoted(file.string());
+  const std::string name = shell_word(file.string());
   for (std::size_t at = command.find(mark); at != std::string::npos; at = command.find(mark, at + name.size())) {
     command.replace(at, mark.size(), name);
   }
@@ -87,8 +81,8 @@ PlanOutcome solve_externally(const std::string& command, const Domain& domain, c
   fill_in(line, "plan", plan_path);
   write_file(folder / "domain.pddl", to_pddl(domain));
   write_file(folder / "problem.pddl", to_pddl(problem, domain));
-  const std::string whole =
-      "cd " + quoted(folder.string()) + " && { " + line + "\n} >" + quoted(log_path.string()) + " 2>&1 </dev/null";
+  const std::string whole = "cd " + shell_word(folder.string()) + " && { " + line + "\n} >" +
+                            shell_word(log_path.string()) + " 2>&1 </dev/null";
   int status = 0;
   try {
     status = ShellProgram(whole, -1, -1, ShellProgram::Group::ours, ShellProgram::Orphans::searched).wait();

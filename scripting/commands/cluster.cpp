@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "engine/base/hash.h"
+#include "engine/base/shell_program.h"
 #include "engine/base/text.h"
 #include "engine/base/text_file.h"
 #include "scripting/commands/commands.h"
@@ -22,8 +23,6 @@ namespace stampede::program {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::int64_t kMostShardsOfRun = 1'000'000;
 
 // Of commands that change who works on a folder, one at a time. The lock goes with the process.
 class TurnAt {
@@ -57,7 +56,7 @@ std::vector<std::string> root_words(const Arguments& arguments) {
 
 int shards_of(const Arguments& arguments, std::int64_t episodes) {
   if (!arguments.has("--shards")) throw UsageError("stampede cluster needs --shards K");
-  const auto shards = in_range(arguments, "--shards", 1, kMostShardsOfRun);
+  const auto shards = in_range(arguments, "--shards", 1, kMostShards);
   if (shards > episodes)
     throw UsageError(fmt::format("--shards: {} shards of {} episodes", shards, episodes),
                      fmt::format("--shards {} at most", episodes));

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <ostream>
 
+#include "db/catalogue.h"
 #include "engine/base/processor.h"
+#include "engine/sim/numerics.h"
 #include "scripting/library/roots.h"
 
 namespace stampede::program {
@@ -27,6 +29,8 @@ Roots roots_of(const Arguments& arguments) {
   for (const std::string& path : arguments.list("--path")) paths.emplace_back(path);
   return make_roots(arguments.text("--root"), paths);
 }
+
+EngineInfo this_engine() { return {STAMPEDE_VERSION, numerics_probe()}; }
 
 OutputRules output_rules(const Arguments& arguments, const Console& console) {
   return {arguments.inputs(), arguments.flag("--force"), console.data};

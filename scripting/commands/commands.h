@@ -11,6 +11,7 @@
 
 namespace stampede {
 class Library;
+struct EngineInfo;
 struct Roots;
 struct ScriptFile;
 }  // namespace stampede
@@ -55,6 +56,7 @@ std::shared_ptr<const Library> words_of(const Arguments& arguments);
 // On stderr: which files were left out, for they have mistakes, but those that are `told` already.
 void tell_left_out(const Library& library, const std::vector<const ScriptFile*>& told, Console& console);
 Roots roots_of(const Arguments& arguments);
+EngineInfo this_engine();  // as catalogues and locks tell it: the release, and what numbers come out of this build here
 // For its outputs: what it reads, and --force.
 OutputRules output_rules(const Arguments& arguments, const Console& console);
 // For commands that write a file: the last --path is made when it is not there.

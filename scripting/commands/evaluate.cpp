@@ -7,7 +7,6 @@
 #include "db/catalogue_writer.h"
 #include "db/table_text.h"
 #include "engine/base/text.h"
-#include "engine/sim/numerics.h"
 #include "engine/start/perturbation.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/job_request.h"
@@ -128,7 +127,7 @@ ExitCode do_evaluate(const Arguments& arguments, Console& console) {
   }
   const Evaluation evaluation = evaluate(library, jobs, settings, [&] {
     CatalogueWriterOptions writing;
-    writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+    writing.engine = this_engine();
     writing.queue_bytes = queue_bytes(settings.run);
     return std::make_unique<CatalogueWriter>(out, std::move(writing));
   });

@@ -12,7 +12,6 @@
 #include "engine/base/nearest.h"
 #include "engine/base/temporary_folder.h"
 #include "engine/base/text_file.h"
-#include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/import_kinds.h"
 #include "scripting/library/editor_files.h"
@@ -147,7 +146,7 @@ std::vector<Judged> run_task(const Arguments& arguments, const std::shared_ptr<c
   RunSettings settings;
   settings.stop = console.stop;
   CatalogueWriterOptions writing;
-  writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+  writing.engine = this_engine();
   const std::string out = arguments.text("--out");
   {
     CatalogueWriter writer(out, std::move(writing));

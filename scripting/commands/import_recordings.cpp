@@ -8,7 +8,6 @@
 #include "db/recording/label_file.h"
 #include "db/recording/recording_file.h"
 #include "engine/record/observation.h"
-#include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/import_kinds.h"
 #include "scripting/commands/recording_stage.h"
@@ -29,8 +28,7 @@ struct Imported {
 
 Imported import_one(const std::string& folder, Catalogue& catalogue, const RecordingStager& stager,
                     const ImportOptions& options) {
-  const StoredRecording stored =
-      store_recording(folder, stager, options, catalogue, {STAMPEDE_VERSION, numerics_probe()});
+  const StoredRecording stored = store_recording(folder, stager, options, catalogue, this_engine());
   const EpisodeRecord& record = stored.episode;
   Imported one;
   one.folder = folder;

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "db/catalogue_writer.h"
-#include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/job_request.h"
 #include "scripting/commands/lock_check.h"
@@ -14,11 +13,6 @@
 
 namespace stampede::program {
 namespace {
-
-const EngineInfo& this_engine() {
-  static const EngineInfo kEngine{STAMPEDE_VERSION, numerics_probe()};
-  return kEngine;
-}
 
 std::vector<std::string> tasks_of(const LockedRun& run) {
   std::set<std::string> tasks;

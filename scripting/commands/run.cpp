@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "db/catalogue_writer.h"
-#include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/job_request.h"
 #include "scripting/commands/language_options.h"
@@ -65,7 +64,7 @@ ExitCode do_run(const Arguments& arguments, Console& console) {
   if (arguments.flag("--sentences")) settings.sentences = made_sentences(*read.library, read.request.tasks, console);
   const std::string out = arguments.text("--out");
   CatalogueWriterOptions writing;
-  writing.engine = {STAMPEDE_VERSION, numerics_probe()};
+  writing.engine = this_engine();
   writing.queue_bytes = queue_bytes(settings);
   CatalogueWriter writer(out, std::move(writing));
   Progress progress(console);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/motion/planner.h"
-#include "engine/sim/numerics.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/job_request.h"
 #include "scripting/commands/picture_options.h"
@@ -69,7 +68,7 @@ Lock plan_of(const RunRequestRead& read, const Arguments& arguments, const std::
   if (arguments.flag("--sentences")) refuse("it has no room for sentences that a model made", "leave --sentences out");
   if (std::ranges::any_of(read.settings.cameras, [](const auto& of_task) { return !of_task.second.empty(); }))
     refuse("it has no room for cameras", "put them into the world's file");
-  return stampede::plan_of(*read.library, read.jobs, read.settings.options, {STAMPEDE_VERSION, numerics_probe()});
+  return stampede::plan_of(*read.library, read.jobs, read.settings.options, this_engine());
 }
 
 std::vector<OptionRow> run_request_options() {

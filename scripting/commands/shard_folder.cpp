@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/read_json.h"
+#include "engine/base/shell_program.h"
 #include "engine/base/text.h"
 #include "engine/base/text_file.h"
 #include "scripting/program/json_text.h"
@@ -18,7 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kManifest = "cluster.json";
 constexpr int kFormat = 1;
-constexpr int kMostShards = 1'000'000;
 
 // The program that is to run on the nodes: this one, unless STAMPEDE names another there.
 constexpr const char* kHead = R"text(#!/bin/sh
@@ -88,12 +88,6 @@ void add_texts(const char* name, const std::vector<std::string>& texts, JsonText
 }
 
 }  // namespace
-
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
 
 ShardFolder::ShardFolder(fs::path path, const Lock& plan, Shape shape)
     : path_(fs::absolute(std::move(path)).lexically_normal()), shape_(std::move(shape)) {

@@ -11,6 +11,8 @@
 
 namespace stampede::program {
 
+inline constexpr std::int64_t kMostShards = 1'000'000;
+
 // run.plan        what is to be made
 // shard.sh        `sh shard.sh I` makes shard I: parts/partI.db appears whole or not at all, and is never made twice
 // finish.sh       merges the parts that are there into demos.db and says what is missing
@@ -53,8 +55,5 @@ class ShardFolder {
   Shape shape_;
   Submitted submitted_;
 };
-
-// As one word of a command line of sh, whatever is in it.
-std::string shell_word(const std::string& text);
 
 }  // namespace stampede::program

@@ -43,12 +43,6 @@ int shell(const std::string& line) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-std::string quoted(const std::string& path) {
-  std::string text;
-  for (const char c : path) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return "'" + text + "'";
-}
-
 Said cluster(std::vector<std::string> words) {
   words.insert(words.begin(), "cluster");
   words.insert(words.end(), {"--root", kRoot});
@@ -85,8 +79,8 @@ const std::string& hash_of_one_run() {
 std::string program_that_fails(const Folder& folder) {
   put(folder, "fails", "");
   put(folder, "program",
-      "#!/bin/sh\ncase \"$*\" in *'--shard 3/'*) [ -e " + quoted(folder / "fails") +
-          " ] && { echo 'no licence for shard 3' >&2; exit 3; };; esac\nexec " + quoted(STAMPEDE_PROGRAM) +
+      "#!/bin/sh\ncase \"$*\" in *'--shard 3/'*) [ -e " + shell_word(folder / "fails") +
+          " ] && { echo 'no licence for shard 3' >&2; exit 3; };; esac\nexec " + shell_word(STAMPEDE_PROGRAM) +
           " \"$@\"\n");
   fs::permissions(folder / "program", fs::perms::owner_all);
   return folder / "program";
@@ -177,7 +171,7 @@ TEST_CASE("a shard that has no room leaves nothing that looks like a part") {
   const std::string run = folder / "run";
   const Variable program("STAMPEDE", STAMPEDE_PROGRAM);
   REQUIRE(begin("xargs", run, 2).code == kDone);
-  CHECK(shell("ulimit -f 100; sh " + quoted(run + "/shard.sh") + " 1") != 0);
+  CHECK(shell("ulimit -f 100; sh " + shell_word(run + "/shard.sh") + " 1") != 0);
   CHECK(fs::is_empty(run + "/parts"));
   CHECK(says(status_of(run)["lost"][0]["said"], "exit code"));
 }
@@ -229,8 +223,8 @@ class Slurm {
  public:
   explicit Slurm(int most_in_array = 1000) : limit_("MAX_ARRAY_SIZE", std::to_string(most_in_array + 1)) {
     const std::string ready = folder_ / "ready";
-    const std::string line = kScript + " " + quoted(folder_ / "slurm") + " sh -c 'touch \"$0\"; exec sleep 600' " +
-                             quoted(ready) + " 2>" + quoted(folder_ / "said.txt");
+    const std::string line = kScript + " " + shell_word(folder_ / "slurm") + " sh -c 'touch \"$0\"; exec sleep 600' " +
+                             shell_word(ready) + " 2>" + shell_word(folder_ / "said.txt");
     program_.emplace(line, -1, -1, ShellProgram::Group::own, ShellProgram::Orphans::searched);
     for (int i = 0; i < 1800 && !fs::exists(ready); ++i) {
       if (says(file_text(folder_ / "said.txt"), "not here: ")) {
@@ -245,7 +239,7 @@ class Slurm {
   }
   explicit operator bool() const { return here_; }  // false: Slurm is not on this machine, or cannot start
 
-  void fail(const std::string& node) const { shell(kScript + " --fail " + quoted(folder_ / "slurm") + " " + node); }
+  void fail(const std::string& node) const { shell(kScript + " --fail " + shell_word(folder_ / "slurm") + " " + node); }
   // Slurm waits two minutes before it runs again what was on a node that failed.
   static void do_not_delay() {
     shell("for job in $(squeue -h -t PD -o %i); do scontrol update JobId=$job StartTime=now; done");
@@ -264,7 +258,7 @@ class Slurm {
   Folder& folder() { return folder_; }
 
  private:
-  inline static const std::string kScript = quoted(std::string(kRoot) + "/tests/program/slurm");
+  inline static const std::string kScript = shell_word(std::string(kRoot) + "/tests/program/slurm");
   Folder folder_;
   Variable limit_, conf_{"SLURM_CONF", folder_ / "slurm/slurm.conf"};
   std::optional<ShellProgram> program_;
