@@ -7,6 +7,8 @@
 #include "db/plain_file.h"
 #include "db/research/baseline.h"
 #include "db/research/dataset.h"
+#include "db/research/scorer.h"
+#include "engine/base/hash.h"
 #include "engine/base/scratch_folder.h"
 #include "tests/program/say.h"
 
@@ -64,6 +66,21 @@ class Made {
     REQUIRE(said.code == kDone);
     return folder_ / "mixed.db";
   }
+  // The folder of a problem's data set of several tasks.
+  std::string varied(const std::string& problem) const {
+    const std::string file = folder_ / "varied.db";
+    if (!fs::exists(file))
+      for (const std::vector<std::string>& more :
+           {std::vector<std::string>{"--episodes", "3"},
+            {"--episodes", "1", "--seed", "900", "--behaviour", "random_applicable", "--skills", "4"}}) {
+        std::vector<std::string> words = {
+            "run", "put_item_in_drawer", "push_buttons", "close_drawer", "--root", kRoot, "--out", file};
+        words.insert(words.end(), more.begin(), more.end());
+        REQUIRE(say(words).code == kDone);
+      }
+    REQUIRE(dataset(problem, file, "varied_" + problem).code == kDone);
+    return folder_ / ("varied_" + problem);
+  }
   // Folders of a problem's data set.
   std::string given(const std::string& problem) const { return ready(problem) + "/given"; }
   std::string hidden(const std::string& problem) const { return ready(problem) + "/hidden"; }
@@ -110,11 +127,79 @@ std::string rows_of(const std::string& problem, const std::string& rest) {
   return text;
 }
 
+void add_to(Hasher& hash, const SqlValue& value) {
+  std::visit(
+      [&](const auto& held) {
+        using Held = std::remove_cvref_t<decltype(held)>;
+        if constexpr (std::is_arithmetic_v<Held>)
+          hash.number(held);
+        else if constexpr (std::is_same_v<Held, std::string>)
+          hash.text(held);
+        else if constexpr (std::is_same_v<Held, SqlBlob>)
+          hash.bytes(held.bytes.data(), held.bytes.size());
+      },
+      value);
+}
+
+// Of demonstrations and failures in several tasks, drawers among them: both parts of a problem's data set, what the
+// baselines answer, and what the scorers say of that.
+std::string hash_of_all(const ResearchProblem& problem) {
+  const std::string folder = made().varied(problem.name), answers = folder + "/answers.json";
+  Hasher hash;
+  for (const std::string part : {"given", "hidden"}) {
+    const PlainFile file = PlainFile::open(folder + "/" + part + "/" + part + ".db");
+    std::istringstream page(file_text(folder + "/" + part + "/README.md"));
+    for (std::string line; std::getline(page, line);)
+      if (!line.starts_with("Physics and demonstrations by Stampede")) hash.text(line);  // the release and processor
+    for (const std::string& table : file.tables())
+      for (const auto& row : file.query("SELECT * FROM " + table).rows)
+        for (const SqlValue& value : row) add_to(hash, value);
+  }
+  for (const research::Baseline& baseline : research::all_baselines()) {
+    if (std::ranges::find(baseline.problems, problem.name) == baseline.problems.end()) continue;
+    REQUIRE(say({"baseline", baseline.name, folder + "/given", "--out", answers}).code == kDone);
+    hash.text(file_text(answers));
+    std::vector<std::string> words = {"score", problem.name, answers, "--hidden", folder + "/hidden", "--json"};
+    if (research::draws_timelines(problem)) words.insert(words.end(), {"--figure", folder + "/figure.svg"});
+    const Said scored = say(words);
+    REQUIRE(scored.code == kDone);
+    hash.text(scored.out);
+    if (research::draws_timelines(problem)) hash.text(file_text(folder + "/figure.svg"));
+  }
+  return hash.digest();
+}
+
+std::map<std::string, std::string> known_hashes() {
+  return {
+      {"abstractions", "ce30fbbff64676cce8d5b4a78e22bde2"},
+      {"inventions", "28f0d4b403d8caf2c3b7ee766c80b268"},
+      {"symbols", "61b87c66d1d0fa53c042ddaa68b17549"},
+      {"concepts", "2189973ce891f0e73b66923fc0904eaa"},
+      {"segments_supervised", "542f83705cac29129a13a58d811478a7"},
+      {"segments", "6557b2dd3a9c568e0d878c34fbe62d9f"},
+      {"conditions_supervised", "5a3c2fafb173b6a1dcb0592cc6a3395a"},
+      {"conditions", "8667f459188e0ced96f9ae09aa5e0a24"},
+      {"segments_and_conditions", "60fa52a2960832c6eb3bd7660aa08ac1"},
+      {"motions", "f1ab7c69af7a0166714eff3e4d39e77e"},
+      {"behaviour", "67e351073353c19af1962f15f31d8e73"},
+      {"controllers", "ff5a80e31f6a7f1e49d64dd9d43db545"},
+      {"transfer", "df7400bdeb85c82bc7080ab42524e08a"},
+      {"rewards", "5d938c6a7740f988541cecce897278f6"},
+      {"transition_models", "641245f9ab619c52f349c448ed0da756"},
+  };
+}
+
 std::string id_of(const std::string& name) { return research::dataset_id(given_file(name)); }
 
 }  // namespace
 
 TEST_CASE("data sets for research problems", "[research]") {
+  SECTION("pages, tables, answers, scores and figures of every problem are what they are known by") {
+    for (const ResearchProblem& problem : all_problems()) {
+      CAPTURE(problem.name);
+      CHECK(hash_of_all(problem) == known_hashes()[problem.name]);
+    }
+  }
   SECTION("every problem has both parts, a page for each, and an example of answers") {
     for (const ResearchProblem& problem : all_problems()) {
       INFO(problem.name);
