@@ -10,6 +10,7 @@
 #include "db/research/scorer.h"
 #include "engine/base/hash.h"
 #include "engine/base/scratch_folder.h"
+#include "engine/base/text.h"
 #include "tests/program/say.h"
 
 namespace stampede::program {
@@ -148,9 +149,8 @@ std::string hash_of_all(const ResearchProblem& problem) {
   Hasher hash;
   for (const std::string part : {"given", "hidden"}) {
     const PlainFile file = PlainFile::open(folder + "/" + part + "/" + part + ".db");
-    std::istringstream page(file_text(folder + "/" + part + "/README.md"));
-    for (std::string line; std::getline(page, line);)
-      if (!line.starts_with("Physics and demonstrations by Stampede")) hash.text(line);  // the release and processor
+    for (const std::string& line : split(file_text(folder + "/" + part + "/README.md"), '\n'))
+      if (!says(line, "Physics and demonstrations by Stampede") && !says(line, made().path(""))) hash.text(line);
     for (const std::string& table : file.tables())
       for (const auto& row : file.query("SELECT * FROM " + table).rows)
         for (const SqlValue& value : row) add_to(hash, value);
@@ -163,7 +163,7 @@ std::string hash_of_all(const ResearchProblem& problem) {
     if (research::draws_timelines(problem)) words.insert(words.end(), {"--figure", folder + "/figure.svg"});
     const Said scored = say(words);
     REQUIRE(scored.code == kDone);
-    hash.text(scored.out);
+    hash.text(nlohmann::json::parse(scored.out)["figures"].dump());
     if (research::draws_timelines(problem)) hash.text(file_text(folder + "/figure.svg"));
   }
   return hash.digest();
@@ -171,21 +171,21 @@ std::string hash_of_all(const ResearchProblem& problem) {
 
 std::map<std::string, std::string> known_hashes() {
   return {
-      {"abstractions", "ce30fbbff64676cce8d5b4a78e22bde2"},
-      {"inventions", "28f0d4b403d8caf2c3b7ee766c80b268"},
-      {"symbols", "61b87c66d1d0fa53c042ddaa68b17549"},
-      {"concepts", "2189973ce891f0e73b66923fc0904eaa"},
-      {"segments_supervised", "542f83705cac29129a13a58d811478a7"},
-      {"segments", "6557b2dd3a9c568e0d878c34fbe62d9f"},
-      {"conditions_supervised", "5a3c2fafb173b6a1dcb0592cc6a3395a"},
-      {"conditions", "8667f459188e0ced96f9ae09aa5e0a24"},
-      {"segments_and_conditions", "60fa52a2960832c6eb3bd7660aa08ac1"},
-      {"motions", "f1ab7c69af7a0166714eff3e4d39e77e"},
-      {"behaviour", "67e351073353c19af1962f15f31d8e73"},
-      {"controllers", "ff5a80e31f6a7f1e49d64dd9d43db545"},
-      {"transfer", "df7400bdeb85c82bc7080ab42524e08a"},
-      {"rewards", "5d938c6a7740f988541cecce897278f6"},
-      {"transition_models", "641245f9ab619c52f349c448ed0da756"},
+      {"abstractions", "3b3d557ecb7859b47fd0bac59ba45115"},
+      {"inventions", "53e59511cb53e785fc5c9a9b00218de2"},
+      {"symbols", "c996c9ce7e69f5c009e1495aa5f26f4e"},
+      {"concepts", "ef0a6e487e8921f50293d329be6d37c8"},
+      {"segments_supervised", "034071b7b403b1466eca941030633ae1"},
+      {"segments", "91db629e4d6385a809ec45ccd1bbc7c4"},
+      {"conditions_supervised", "e6e2c86e58cd507c9cf629f29f6a5b9e"},
+      {"conditions", "c29b7f3ca55aa81ead7401cc8d508aa2"},
+      {"segments_and_conditions", "70cab7e3bb825b11114dc2be210c8cf0"},
+      {"motions", "6d0cfeacda216b2ff1978fd57db02ee6"},
+      {"behaviour", "2e7161841a3dc0f88b725148e3a0efc7"},
+      {"controllers", "a9b0b6ebdaa05cd7b945ed31387b3ca1"},
+      {"transfer", "412159dd06f58491b2dd84ab307c40d8"},
+      {"rewards", "2562a7c02832a07a1d2e155802671f5a"},
+      {"transition_models", "7abd36f19ae497e1745b60f8cf50fe43"},
   };
 }
 
