@@ -29,6 +29,7 @@ FORMATS = {
     "rlds": "RLDS as in Open X-Embodiment (arXiv:2310.08864): TFRecord files for tfds",
     "mcap": "MCAP files with Foxglove's schemas, one an episode",
     "rlbench": "RLBench's folders of pictures and pickled demos",
+    "parquet": "the catalogue's own views as tables of Parquet, for DuckDB, pandas and Spark",
 }
 
 _MANIFEST = "stampede-export.json"
@@ -162,30 +163,36 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
             help="which episodes: a condition on view `episodes` (default: %(default)s)",
         )
         one.add_argument("--limit", type=int, metavar="N", help="at most so many episodes")
-        one.add_argument(
-            "--cameras",
-            type=lambda text: [camera for camera in text.split(",") if camera],
-            metavar="NAMES",
-            help="comma-separated, or '' for none (default: those with a stored picture of every frame)",
-        )
-        if name != "rlbench":  # what is in its demos is fixed
-            one.add_argument(
-                "--channels",
-                type=lambda text: [channel for channel in text.split(",") if channel],
-                default=[],
-                metavar="NAMES",
-                help="further columns of numbers, such as joint_forces,facts,object_pose (engine/episode/README.md)",
-            )
-        one.add_argument("--draw", action="store_true", help="draw pictures that are not stored")
-        one.add_argument(
-            "--valid", type=float, default=0.1, metavar="SHARE", help="of the training episodes (default: %(default)s)"
-        )
+        if name != "parquet":  # it has what the catalogue has
+            _add_learners_arguments(one, channels=name != "rlbench")  # what is in its demos is fixed
         if name == named:  # other formats may need libraries that are not there
             _module(name).Writer.add_arguments(one)
     options = parser.parse_args(arguments)
-    if not 0 <= options.valid < 1:
+    if not 0 <= getattr(options, "valid", 0) < 1:
         raise fault("--valid", f"{options.valid} is no share", "from 0 up to but not including 1")
     return options
+
+
+def _add_learners_arguments(parser: argparse.ArgumentParser, channels: bool) -> None:
+    """What the learner that reads a dataset wants in it."""
+    parser.add_argument(
+        "--cameras",
+        type=lambda text: [camera for camera in text.split(",") if camera],
+        metavar="NAMES",
+        help="comma-separated, or '' for none (default: those with a stored picture of every frame)",
+    )
+    if channels:
+        parser.add_argument(
+            "--channels",
+            type=lambda text: [channel for channel in text.split(",") if channel],
+            default=[],
+            metavar="NAMES",
+            help="further columns of numbers, such as joint_forces,facts,object_pose (engine/episode/README.md)",
+        )
+    parser.add_argument("--draw", action="store_true", help="draw pictures that are not stored")
+    parser.add_argument(
+        "--valid", type=float, default=0.1, metavar="SHARE", help="of the training episodes (default: %(default)s)"
+    )
 
 
 def _begun(folder: Path, options: argparse.Namespace, catalogue: Catalogue) -> list[StoredEpisode]:
@@ -194,7 +201,8 @@ def _begun(folder: Path, options: argparse.Namespace, catalogue: Catalogue) -> l
     Raises Error where it was another export, or another catalogue lies in that place now, or the folder is in use.
     """
     if not (folder / _MANIFEST).exists():
-        if folder.exists() and any(folder.iterdir()):
+        may_grow = getattr(_module(options.format), "may_grow", None)
+        if folder.exists() and any(folder.iterdir()) and not (may_grow and may_grow(folder)):
             raise fault(str(folder), "the folder is not empty", "name a new one")
         return []
     manifest = json.loads((folder / _MANIFEST).read_text())
