@@ -22,6 +22,7 @@ EXPORTS = {
     "rlds, no pictures": ["rlds", "--cameras", ""],
     "rlds, two cameras": ["rlds"],
     "lerobot v3.0, two cameras": ["lerobot"],
+    "parquet": ["parquet"],
 }
 WINDOWS = 300
 
