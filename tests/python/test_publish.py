@@ -35,6 +35,12 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return file
 
 
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where pictures matter to nobody: a film takes longer than all the rest."""
+    monkeypatch.setattr("stampede.publish.demos._draw", lambda folder, episode, tell: False)
+
+
 @pytest.fixture(scope="module")
 def folder(made: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return run(made, tmp_path_factory.mktemp("out") / "set", "--repository", "me/reach", "--dry-run")
@@ -152,6 +158,7 @@ def test_croissant_names_files_as_they_are(folder: Path) -> None:
         assert [one["name"] for one in records["field"]] == list(rows_of(folder / f"{records['name']}.csv")[0])
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_lerobot_shards_come_with_it(made: Path, tmp_path: Path) -> None:
     pytest.importorskip("pyarrow")
     pytest.importorskip("av")
@@ -196,6 +203,7 @@ def test_words_by_themselves() -> None:
     assert code("a`b|c\n") == r"`a'b\|c`" and code("") == "–" and len(code("x" * 1000)) < 210
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_cannot_be_locked_says_so(made: Path, tmp_path: Path) -> None:
     drawn = tmp_path / "drawn.db"
     drawn.write_bytes(made.read_bytes())
@@ -206,6 +214,7 @@ def test_what_cannot_be_locked_says_so(made: Path, tmp_path: Path) -> None:
     assert not (folder / "demos.lock").exists()
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_catalogues_become_one(made: Path, tmp_path: Path) -> None:
     stampede.Session(catalogue=tmp_path / "more.db").run_all(["push_buttons"], seed=1_000_000)
     folder = run(made, tmp_path / "set", str(tmp_path / "more.db"))
@@ -240,6 +249,7 @@ def test_what_cannot_be_is_refused(made: Path, tmp_path: Path, words: list[str],
     assert said in refused(tmp_path, *words, "--out", str(tmp_path / "set"))
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_folder_of_somebody_else_is_left_alone(made: Path, tmp_path: Path) -> None:
     folder = tmp_path / "set"
     words = [str(made), "--name", "x", "--out", str(folder)]
@@ -255,6 +265,7 @@ def test_a_folder_of_somebody_else_is_left_alone(made: Path, tmp_path: Path) -> 
     assert "README.md is not as this made it" in refused(tmp_path, *words)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_is_cut_off_leaves_nothing(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def cut_off(*_: Any) -> None:
         raise KeyboardInterrupt
@@ -285,6 +296,7 @@ class FakeHub(types.ModuleType):
         self.calls.append(("upload_folder", repo_id, more["repo_type"], sorted(files_of(Path(folder_path)))))
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_it_is_uploaded_when_that_is_asked_for(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     hub = FakeHub("secret")
     monkeypatch.setitem(sys.modules, "huggingface_hub", hub)
@@ -301,6 +313,7 @@ def test_it_is_uploaded_when_that_is_asked_for(made: Path, tmp_path: Path, monke
     assert "uploaded to me/x" in lines[-1] and not any("secret" in line for line in lines)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_an_upload_lacks_is_told_before_work(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     words = [str(made), "--out", str(tmp_path / "set"), "--name", "x", "--repository", "me/x"]
     monkeypatch.setitem(sys.modules, "huggingface_hub", None)
