@@ -5,7 +5,7 @@ _stampede() {
     list) words="--sheet --hash --force --root --path --json --help" ;;
     check) words="--physics --why --pictures --episodes --seed --randomise --workers --force --root --path --json --help" ;;
     run) words="--episodes --variation --seed --split --on-failure --controller --motion-planner --randomise --where --goal --behaviour --skills --set --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --workers --out --shard --plan --sentences --planner --policy --policy-timeout --observe --reward --root --path --json --help" ;;
-    evaluate) words="--perturb --episodes --variation --seed --split --workers --out --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --root --path --json --help" ;;
+    evaluate) words="--perturb --episodes --variation --seed --split --workers --out --shard --policy --policy-timeout --observe --reward --images --camera --size --kinds --noise --shadows --renderer --camera-file --add-camera --channels --root --path --json --help" ;;
     show) words="--all --frame --as --leave-out --root --path --json --help" ;;
     plan) words="--variation --seed --pddl --task-sized --bddl --leave-out --where --goal --k --expansions --planner --root --path --json --help" ;;
     validate) words="--root --path --json --help" ;;

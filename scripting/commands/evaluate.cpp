@@ -177,10 +177,18 @@ CommandRow evaluate_command() {
        {"--seed", "S", "the first seed; default: 1000000, or 0 in the train split", Takes::integer, "", {}, false},
        {"--split", "NAME", "seeds from 1000000 up are the test split's", Takes::text, "test", {"train", "test"}, false},
        {"--workers", "W", "cores to use, default: all; they do not change the answer", Takes::integer, "", {}, false},
-       {"--out", "FILE", "the catalogue", Takes::path, "evaluation.db", {}, false}},
+       {"--out", "FILE", "the catalogue", Takes::path, "evaluation.db", {}, false},
+       {"--shard",
+        "I/N",
+        "only the I-th of N parts, each into a file of its own: `query` asks them as one, by success_by_perturbation",
+        Takes::text,
+        "",
+        {},
+        false}},
       {"stampede evaluate reach_target --policy \"sh policy.sh\" --observe gripper_pose,object_pose",
        "stampede evaluate pick_and_lift stack_blocks --episodes 50 --workers 2",
-       "stampede evaluate push_buttons --perturb layout,start=2,noise --json"},
+       "stampede evaluate push_buttons --perturb layout,start=2,noise --json",
+       "stampede evaluate push_buttons --perturb all --shard 1/8 --out part1.db"},
       do_evaluate};
   add_options(row.options, policy_options());
   for (OptionRow& option : picture_options(PictureUse::run)) row.options.push_back(std::move(option));

@@ -326,6 +326,7 @@ Evaluation SessionCore::evaluate(const std::vector<std::string>& tasks, const Ev
   asked.tasks = tasks;
   asked.episodes = request.episodes;
   asked.workers = request.workers;
+  asked.shard = request.shard;
   asked.each.seed = request.first_seed;
   asked.each.variation = request.variation;
   EvaluationSettings settings;

@@ -70,6 +70,44 @@ EvaluationRequest by(std::int64_t episodes) {
 
 }  // namespace
 
+TEST_CASE("the parts of an evaluation are the whole, asked as one or merged") {
+  const Folder folder;
+  const Words more = {"reach_target", "push_buttons", "--episodes", "3", "--perturb", "start,layout", "--json"};
+  const auto part = [&](const std::string& file, const std::string& shard) {
+    Words words = more;
+    if (!shard.empty()) words.insert(words.end(), {"--shard", shard});
+    const Said said = evaluated(folder / file, words);
+    INFO(said.err);
+    REQUIRE(said.code == kDone);
+    std::int64_t episodes = 0;
+    const auto answer = nlohmann::json::parse(said.out);
+    for (const auto& row : answer["rows"])
+      if (row["axis"] == "" && row["task"] != "") episodes += row["episodes"].get<std::int64_t>();
+    return episodes;
+  };
+  CHECK(part("whole.db", "") == 18);
+  std::filesystem::create_directories(folder / "parts");
+  CHECK(part("parts/1.db", "1/4") == 6);
+  CHECK(part("parts/2.db", "2/4") == 6);
+  CHECK(part("parts/3.db", "3/4") + part("parts/4.db", "4/4") == 6);
+  const auto asked = [&](const std::string& of) {
+    return say({"query", folder / of, "success_by_perturbation", "--format", "csv"}).out;
+  };
+  REQUIRE(say({"index", folder / "parts"}).code == kDone);
+  CHECK(asked("parts") == asked("whole.db"));
+  CHECK(says(asked("whole.db"), "reach_target,test,planner,layout=1,3,"));
+  REQUIRE(say({"merge", folder / "all.db", folder / "parts/1.db", folder / "parts/2.db", folder / "parts/3.db",
+               folder / "parts/4.db"})
+              .code == kDone);
+  CHECK(Catalogue::open(folder / "all.db").content_hash() == Catalogue::open(folder / "whole.db").content_hash());
+  CHECK(evaluated(folder / "none.db", {"reach_target", "--shard", "5/4"}).code == kUsage);
+  auto core = std::make_shared<SessionCore>(STAMPEDE_SOURCE_DIR, std::vector<std::filesystem::path>{}, "");
+  CHECK(row_of(core->evaluate({"reach_target"}, {.episodes = 5, .shard = {2, 2}}), "reach_target", "none").episodes ==
+        2);
+  CHECK_THROWS_WITH(core->evaluate({"reach_target"}, {.episodes = 5, .shard = {3, 2}}),
+                    Catch::Contains("EvaluationRequest::shard"));
+}
+
 TEST_CASE("Wilson's interval is that of the textbook, and of nothing anything") {
   const auto [lower, upper] = wilson_interval(8, 10);
   CHECK(lower == Approx(0.4902).margin(1e-4));  // Newcombe, Statistics in Medicine 1998, method 3

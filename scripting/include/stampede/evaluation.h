@@ -34,7 +34,8 @@ struct EvaluationRequest {
   // Other strengths, above 0 and up to 10, are factors; of texture, the share of things that look otherwise.
   std::vector<std::string> perturb = {};
 
-  int workers = 1;  // cores to use
+  int workers = 1;   // cores to use
+  Shard shard = {};  // of all these episodes, as RunRequest: parts' catalogues are asked together
   // Who acts in whole episodes: one is made for each, by the thread that runs it. `Policy::begin` gets task and
   // instruction; where `act` gives nothing the episode ends; what it throws, and 100 refusals in a row, end it with the
   // reason policy_error. Empty: the planner, whose success says what can be done.

@@ -512,22 +512,25 @@ frame, and if it likes `begin(call)`. version is part of an episode's key: anoth
           "evaluate",
           [](PySession& self, const std::vector<std::string>& tasks, std::optional<nb::callable> policy,
              std::int64_t episodes, std::int64_t first_seed, const std::string& variation,
-             std::vector<std::string> perturb, int workers, const std::string& policy_name, const nb::kwargs& words) {
+             std::vector<std::string> perturb, int workers, std::pair<std::int64_t, std::int64_t> shard,
+             const std::string& policy_name, const nb::kwargs& words) {
             const Using use(self.turn, "Session.evaluate");
             EvaluationRequest request{.episodes = episodes,
                                       .first_seed = first_seed,
                                       .variation = variation,
                                       .perturb = std::move(perturb),
                                       .workers = workers,
+                                      .shard = {shard.first, shard.second},
                                       .policy_name = policy_name,
                                       .settings = settings_from(words, "evaluate")};
             return evaluate(self, tasks, std::move(request), policy);
           },
           "tasks"_a, "policy"_a = nb::none(), "episodes"_a = 20, "first_seed"_a = 1'000'000, "variation"_a = "",
-          "perturb"_a = std::vector<std::string>(), "workers"_a = 1, "policy_name"_a = "policy", "settings"_a,
+          "perturb"_a = std::vector<std::string>(), "workers"_a = 1,
+          "shard"_a = std::pair<std::int64_t, std::int64_t>(1, 1), "policy_name"_a = "policy", "settings"_a,
           R"(How often a policy, or without one the planner, succeeds, undisturbed and along axes of perturbation.
 
-policy() gives an object with `act` and `begin`, one an episode, as of `add_policy`. Other arguments are those of
+shard (2, 8): the second of eight parts, as of `run_all`. policy() gives an object with `act` and `begin`, one an episode, as of `add_policy`. Other arguments are those of
 `environment`: what it observes, rates, horizon.)");
 }
 

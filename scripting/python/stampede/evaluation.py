@@ -23,6 +23,7 @@ def evaluate(
     variation: str = "",
     perturb: Sequence[str] = (),
     workers: int = 1,
+    shard: tuple[int, int] = (1, 1),
     name: str = "policy",
     deterministic: bool = True,
     root: "PathLike | None" = None,
@@ -42,7 +43,7 @@ def evaluate(
             model's own.
         episodes, first_seed: how many of each task, and from which seed; from 1'000'000 up is the test split.
         variation: canonical text or axes of it; empty: all. perturb: axes, `camera=1` with strength.
-        workers: threads. name: of the policy, in the catalogue. deterministic: of a model.
+        workers: threads. shard (2, 8): the second of eight parts, each into a catalogue of its own. name: of the policy, in the catalogue. deterministic: of a model.
         root, paths, catalogue: as of stampede.Session; the episodes go to the catalogue.
         settings: for a policy that is no model: channels, rates, horizon_s, width and more, as of Session.environment.
 
@@ -55,6 +56,7 @@ def evaluate(
         "variation": variation,
         "perturb": list(perturb),
         "workers": workers,
+        "shard": shard,
         "policy_name": name,
     }
     names = [tasks] if isinstance(tasks, str) else list(tasks)
