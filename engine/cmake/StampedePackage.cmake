@@ -20,5 +20,8 @@ if(LIBAV_libavformat_VERSION MATCHES "^([0-9]+)")
   string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", libavformat${CMAKE_MATCH_1}")
 endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/stampede RENAME copyright)
+set(materials ${PROJECT_BINARY_DIR}/materials)  # by .ci/materials, which looks at the finished program: Debian's `copyright` is in the place of ours
+install(FILES ${materials}/copyright ${materials}/THIRD_PARTY_LICENCES.txt ${materials}/stampede.cdx.json
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/stampede OPTIONAL)
 install(FILES CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/stampede)
 include(CPack)

@@ -20,7 +20,7 @@ pkg_check_modules(CURL REQUIRED IMPORTED_TARGET libcurl)
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
 
 # Debian's ompl.pc forces C++14 and names a folder that does not exist, so OMPL is found by hand.
-find_path(OMPL_INCLUDE_DIR ompl/config.h PATH_SUFFIXES ompl-1.5 REQUIRED)
+find_path(OMPL_INCLUDE_DIR ompl/config.h PATH_SUFFIXES ompl-1.5 ompl-1.6 REQUIRED)
 find_library(OMPL_LIBRARY ompl REQUIRED)
 add_library(stampede_ompl INTERFACE)
 target_include_directories(stampede_ompl SYSTEM INTERFACE ${OMPL_INCLUDE_DIR})
