@@ -13,7 +13,6 @@ done
 "$AR" rcs "$own/lib/liblua5.4-c++.a" lua/src/*.o
 mkdir "$own/include/lua"
 cp lua/src/{lua,lauxlib,lualib,luaconf}.h lua/src/lua.hpp "$own/include/lua"
-sed -i 's/^extern "C" {//; s/^}//' "$own/include/lua/lua.hpp"  # its names are those of C++
 cat >"$own/lib/pkgconfig/lua5.4-c++.pc" <<PC
 Name: lua5.4-c++
 Description: Lua, compiled as C++

@@ -19,6 +19,16 @@ pkg_check_modules(FREETYPE REQUIRED IMPORTED_TARGET freetype2)
 pkg_check_modules(CURL REQUIRED IMPORTED_TARGET libcurl)
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
 
+# Lua that is compiled as C++ has names of C in Debian 12, and of C++ later: `lua.hpp` declares the former.
+include(CheckCXXSourceCompiles)
+set(CMAKE_REQUIRED_LIBRARIES PkgConfig::LUA)
+check_cxx_source_compiles("#include <lua.hpp>\nint main() { lua_close(luaL_newstate()); }" STAMPEDE_LUA_C_NAMES)
+unset(CMAKE_REQUIRED_LIBRARIES)
+if(NOT STAMPEDE_LUA_C_NAMES)
+  file(WRITE ${PROJECT_BINARY_DIR}/lua/lua.hpp "#include <lua.h>\n#include <lualib.h>\n#include <lauxlib.h>\n")
+  target_include_directories(PkgConfig::LUA BEFORE INTERFACE ${PROJECT_BINARY_DIR}/lua)
+endif()
+
 # Debian's ompl.pc forces C++14 and names a folder that does not exist, so OMPL is found by hand.
 find_path(OMPL_INCLUDE_DIR ompl/config.h PATH_SUFFIXES ompl-1.5 ompl-1.6 REQUIRED)
 find_library(OMPL_LIBRARY ompl REQUIRED)

@@ -204,7 +204,7 @@ void Lookout::add_joined(Bearing& bearing) const {
   if (!bodies_.joined({*held_, 0})) return;
   const int other = bodies_.scene().body_index(bodies_.body(*held_).joined_to);
   for (std::size_t p = 0; p < bodies_.body(other).parts.size(); ++p)
-    bearing.joined.insert({{*held_, 0}, {other, static_cast<int>(p)}});
+    bearing.joined.insert({PartRef{*held_, 0}, PartRef{other, static_cast<int>(p)}});
 }
 
 Bearing Lookout::bearing(const Near& near) const {
