@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
-from pathlib import Path
+
+from stampede.program import PROGRAM
 
 
 def run_engine() -> None:
     """Becomes the engine's program, with this program's arguments."""
-    program = Path(__file__).parent / "engine" / "bin" / "stampede"
-    os.execv(program, ["stampede", *sys.argv[1:]])
+    os.execv(PROGRAM, ["stampede", *sys.argv[1:]])
 
 
 if __name__ == "__main__":

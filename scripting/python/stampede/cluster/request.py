@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-from pathlib import Path
 from typing import Any
 
-from stampede import _core
+from stampede import _core, program
 from stampede.faults import fault
 
 PLACE = "stampede.cluster.generate"
@@ -40,14 +38,13 @@ def check_request(tasks: list[str], episodes: int, request: dict[str, Any], root
 
 def made_of(tasks: list[str], root: str | None, paths: list[str]) -> dict[str, Any]:
     """What decides on the data beside the request: the release, and by task a hash of all files that it reads."""
-    program = Path(_core.__file__).parent / "engine" / "bin" / "stampede"
     where = [*(["--root", root] if root else []), *(word for path in paths for word in ("--path", path))]
 
     def lines(*what: str) -> list[str]:
-        command = [str(program), "list", *what, "--hash", *where]
-        listed = subprocess.run(command, capture_output=True, text=True, check=False)
+        command = ["list", *what, "--hash", *where]
+        listed = program.call(*command)
         if listed.returncode:
-            raise fault(PLACE, listed.stderr.strip() or f"exit code {listed.returncode}", " ".join(command[1:]))
+            raise fault(PLACE, listed.stderr.strip() or f"exit code {listed.returncode}", " ".join(command))
         return listed.stdout.split("\n")
 
     if len(tasks) <= _FEW_TASKS:

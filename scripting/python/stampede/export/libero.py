@@ -11,7 +11,6 @@ from __future__ import annotations
 import argparse
 import json
 import re
-import subprocess
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-import stampede
+from stampede import program
 from stampede.catalogue import StoredEpisode
 from stampede.export import common_cameras
 from stampede.export.hdf5 import (
@@ -120,13 +119,12 @@ class Writer:
 
 def _problems(episodes: Sequence[StoredEpisode]) -> dict[int, dict[str, str]]:
     """Attributes that say each episode's problem in LIBERO's dialect of BDDL, by episode."""
-    program = Path(stampede.__file__).parent / "engine" / "bin" / "stampede"
     with tempfile.TemporaryDirectory() as folder:
-        command = [str(program), "export", "bddl", str(episodes[0].catalogue.path), "--out", folder]
+        command = ["export", "bddl", str(episodes[0].catalogue.path), "--out", folder]
         command += ["--dialect", "libero", "--leave-out", "hand_empty"]
         for episode in episodes:
             command += ["--episode", str(episode.id)]
-        ran = subprocess.run(command, capture_output=True, text=True, check=False)
+        ran = program.call(*command)
         index = Path(folder) / "index.json"
         rows = {row["episode"]: row for row in json.loads(index.read_text())} if index.exists() else {}
         problems = {}

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import argparse
 import json
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+from stampede import program
 from stampede.catalogue import Catalogue
 from stampede.export import export
 from stampede.faults import fault
-from stampede.publish import croissant, program
+from stampede.publish import croissant
 from stampede.publish.demos_card import FILE, LOCK, Made, card_of
 from stampede.publish.tables import write_tables
 
@@ -48,11 +50,11 @@ def _copy(files: list[Path], folder: Path) -> Catalogue:
 
 def _lock(folder: Path) -> str:
     """Writes it, or says why there is none."""
-    done = program.call(folder, "lock", FILE)
+    done = program.call("lock", FILE, folder=folder)
     if done.returncode == program.BAD_INPUT:
-        return program.said(done).removeprefix(f"{FILE}: ")
+        return _first_line(done).removeprefix(f"{FILE}: ")
     if done.returncode:
-        raise fault("stampede lock", program.said(done))
+        raise fault("stampede lock", _first_line(done))
     (folder / LOCK).write_text(done.stdout)
     return ""
 
@@ -60,8 +62,12 @@ def _lock(folder: Path) -> str:
 def _draw(folder: Path, episode: int, tell: Callable[[str], None]) -> bool:
     """Whether there is a film beside the contact sheet: it needs ffmpeg's libraries."""
     program.answer(folder, "render", FILE, str(episode), "--sheet", "sheet.png")
-    done = program.call(folder, "render", FILE, str(episode), "--video", "film.mp4")
+    done = program.call("render", FILE, str(episode), "--video", "film.mp4", folder=folder)
     if done.returncode:
         (folder / "film.mp4").unlink(missing_ok=True)
-        tell(f"no film, a contact sheet only: {program.said(done)}")
+        tell(f"no film, a contact sheet only: {_first_line(done)}")
     return done.returncode == 0
+
+
+def _first_line(done: subprocess.CompletedProcess[str]) -> str:
+    return program.said(done).split("\n")[0]

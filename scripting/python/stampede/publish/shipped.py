@@ -10,11 +10,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from stampede import program
 from stampede._core import Session
 from stampede.catalogue import Catalogue
 from stampede.faults import unknown
 from stampede.file_names import FileNames
-from stampede.publish import card, croissant, program
+from stampede.publish import card, croissant
 from stampede.publish.tables import FLOAT, INTEGER, TEXT, Column, Table, write
 from stampede.publish.words import code, plain
 

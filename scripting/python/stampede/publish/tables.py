@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from stampede import program
 from stampede.catalogue import Catalogue
-from stampede.publish import program
 from stampede.publish.words import cell
 
 INTEGER, FLOAT, TEXT = "Integer", "Float", "Text"  # of schema.org

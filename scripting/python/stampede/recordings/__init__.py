@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
+from stampede import program
 from stampede.faults import fault, reading
 from stampede.recordings import given as given_options
 from stampede.recordings.given import Given
@@ -54,15 +54,14 @@ def convert(arguments: Sequence[str] | None = None, tell: Callable[[str], None] 
 
 def import_folders(folders: Sequence[Path], catalogue: Path, tell: Callable[[str], None]) -> None:
     """Each becomes an episode of the catalogue, by the engine's program. Raises Error with what that says."""
-    program = Path(__file__).parents[1] / "engine" / "bin" / "stampede"
     for folder in folders:
-        command = [str(program), "import", "recording", str(folder), "--out", str(catalogue)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        command = ["import", "recording", str(folder), "--out", str(catalogue)]
+        done = program.call(*command)
         for line in done.stderr.splitlines() if done.returncode == 0 else []:
             tell(line)
         if done.returncode:
-            said = done.stderr.strip().removeprefix("error: ") or f"exit code {done.returncode}"
-            raise fault(str(folder), f"it was written, but not imported: {said}", " ".join(command[1:]))
+            said = program.said(done)
+            raise fault(str(folder), f"it was written, but not imported: {said}", " ".join(command))
 
 
 def _module(name: str) -> Any:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import subprocess
 import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -17,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stampede import program
 from stampede.calibrate.boards import opencv
 from stampede.catalogue import Catalogue, StoredEpisode
 from stampede.export.scene import robot_base
@@ -278,13 +278,11 @@ class _Renderer:
             return np.stack([self._cv2.imread(str(file))[..., ::-1] for file in files])
 
     def _run(self, *further: str) -> None:
-        program = Path(__file__).parents[1] / "engine" / "bin" / "stampede"
-        command = [str(program), "render", str(self._episode.catalogue.path), str(self._episode.id), "--kinds", "rgb"]
+        command = ["render", str(self._episode.catalogue.path), str(self._episode.id), "--kinds", "rgb"]
         command += ["--camera-file", str(self._cameras), *further]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        done = program.call(*command)
         if done.returncode:
-            said = done.stderr.strip().removeprefix("error: ") or f"exit code {done.returncode}"
-            raise fault(f"episode {self._episode.id}", f"its pictures cannot be drawn anew: {said}", "")
+            raise fault(f"episode {self._episode.id}", f"its pictures cannot be drawn anew: {program.said(done)}", "")
 
 
 def as_jpeg(picture: Array) -> tuple[bytes, str]:
