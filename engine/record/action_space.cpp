@@ -18,6 +18,7 @@ constexpr double kFarthest_m = 3, kHalfTurn = 3.1416;          // of a path
 constexpr double kLeastStiffness = 10, kMostStiffness = 3000;  // N/m
 constexpr double kSlack = 1e-9;                                // of bounds: a sum of deltas may miss them by a digit
 constexpr double kSinglePrecision = 1.2e-7;  // share of a bound by which it may be missed that was stored as a float
+constexpr double kOverStop = 1e-3;           // rad, m: where an arm or a hand stands may be asked for again
 
 using Components = std::vector<ActionComponent>;
 
@@ -86,9 +87,9 @@ const ActionSpace* named_space(const std::vector<ActionSpace>& spaces, std::stri
   return found == spaces.end() ? nullptr : &*found;
 }
 
-std::optional<ActionRefusal> mistake_in_value(const ActionComponent& component, double value) {
+std::optional<ActionRefusal> mistake_in_value(const ActionComponent& component, double value, double over = 0) {
   if (!std::isfinite(value)) return ActionRefusal{component.name + " is not a finite number", "give a number"};
-  const auto slack = [](double bound) { return kSlack + kSinglePrecision * std::abs(bound); };
+  const auto slack = [&](double bound) { return over + kSlack + kSinglePrecision * std::abs(bound); };
   if (value >= component.lower - slack(component.lower) && value <= component.upper + slack(component.upper))
     return std::nullopt;
   return ActionRefusal{component.name + " is out of its bounds: " + number(value) + " " + component.unit,
@@ -100,11 +101,12 @@ std::optional<ActionRefusal> mistake_in_values(const AgentAction& action, const 
     return ActionRefusal{action.space + " has " + std::to_string(space.components.size()) + " values, not " +
                              std::to_string(action.values.size()),
                          "spaces() lists them"};
+  const double over = action.space == "joint_position" || action.space == "gripper" ? kOverStop : 0;
   const bool pose = action.space == "tool_pose" || action.space == "tool_path" || action.space == "tool_impedance";
   for (std::size_t i = 0; i < action.values.size(); ++i) {
     ActionComponent component = space.components[i];
     if (pose && action.frame == "tool" && i < 3) component.lower = -kReach_m, component.upper = kReach_m;
-    if (auto refusal = mistake_in_value(component, action.values[i])) return refusal;
+    if (auto refusal = mistake_in_value(component, action.values[i], over)) return refusal;
   }
   if (pose && Eigen::Vector4d(action.values[3], action.values[4], action.values[5], action.values[6]).norm() < 1e-3)
     return ActionRefusal{"its quaternion has no length", "x y z, then the quaternion x y z w: 0 0 0 1"};
@@ -149,7 +151,7 @@ std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::ve
     return ActionRefusal{"there is no frame of reference '" + action.frame + "'", "say world or tool"};
   if (auto refusal = mistake_in_values(action, *space)) return refusal;
   if (action.gripper)
-    if (auto refusal = mistake_in_value(named_space(spaces, "gripper")->components.front(), *action.gripper))
+    if (auto refusal = mistake_in_value(named_space(spaces, "gripper")->components.front(), *action.gripper, kOverStop))
       return refusal;
   if (!action.controller.empty() && !controller_from(action.controller))
     return ActionRefusal{"there is no controller '" + action.controller + "'",

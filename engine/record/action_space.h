@@ -19,8 +19,8 @@ std::vector<ActionSpace> action_spaces(const Scene& scene);
 // The same for an arm with these joints, by name and unit alone: nothing has bounds.
 std::vector<ActionSpace> named_spaces(const std::vector<std::string>& joints);
 
-// What is wrong with an action's form: its space, number of values, bounds, controller, frame of reference. `space`: of
-// that name; nothing: there is none.
+// What is wrong with an action's form: its space, number of values, bounds, controller, frame of reference. A joint or
+// a hand that was measured up to 1 mrad or 1 mm beyond its stop may be sent there: it goes to the stop.
 std::optional<ActionRefusal> mistake_in(const AgentAction& action, const std::vector<ActionSpace>& spaces);
 
 bool is_of_tool(std::string_view space);     // its values are a pose or a motion of the tool

@@ -167,14 +167,14 @@ bool Lookout::presses(const std::vector<JointVector>& way) const {
   });
 }
 
-// Of the reference: so many steps by the servo at this pace, then as fast as it can to a stand.
+// Of the reference: so many steps by the servo at this pace, then as fast as it can on its way to a stand.
 std::vector<JointVector> Lookout::way_to_a_stand(double pace, std::int64_t led) const {
   Limits ignored;
   const operation::Servo stop{operation::Servo::Of::velocity, JointVector::Zero(control_.arm().joints())};
   const Stream none;
   const StepClock& clock = control_.clock();
-  const Guard guard{pace, {}};
-  const Governor governor(control_.arm(), clock.dt, guard, ignored);
+  const Guard guard{pace, {}}, stand{0, {}};
+  const Governor governor(control_.arm(), clock.dt, stand, ignored);
   const auto longest = static_cast<std::int64_t>(kLongest_s / clock.dt);
   std::vector<JointVector> way;
   JointState at = control_.reference_now;

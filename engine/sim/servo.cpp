@@ -149,6 +149,12 @@ double Governor::speed_asked(const JointState& now, const Aim& aim, Eigen::Index
              : leading_speed(from, to, limits(i), dt_);
 }
 
+// How far a joint's reference is ahead of the joint, in the direction in which it is to move.
+double Governor::ahead(const JointState& now, double wanted, Eigen::Index i) const {
+  if (guard_.position.size() == 0 || wanted == 0) return 0;
+  return std::copysign(1.0, wanted) * (now.position[i] - guard_.position[i]);
+}
+
 // The speeds that the joints should have: each can stop before its end, and waits for an arm that does not get on.
 JointVector Governor::speeds_wanted(const JointState& now, const Aim& aim) const {
   JointVector wanted(aim.servo.value.size());
@@ -160,9 +166,8 @@ JointVector Governor::speeds_wanted(const JointState& now, const Aim& aim) const
     if (std::abs(wanted[i] - speed) > kLeastPull) acted_.note(Limit::speed);
     const double most = guard_.pace * speed_of(limits(i));
     if (guard_.pace < kYieldingPace && std::abs(wanted[i]) > most) slow = std::min(slow, most / std::abs(wanted[i]));
-    if (guard_.position.size() == 0) continue;
-    const double ahead = std::copysign(1.0, wanted[i]) * (now.position[i] - guard_.position[i]);
-    if (ahead <= guard_.lead / 2 || wanted[i] == 0) continue;
+    const double ahead = this->ahead(now, wanted[i], i);
+    if (ahead <= guard_.lead / 2) continue;
     acted_.note(Limit::reference);
     wanted[i] *= std::max(0.0, 2 - 2 * ahead / guard_.lead);
   }
@@ -175,25 +180,30 @@ JointVector Governor::speeds_wanted(const JointState& now, const Aim& aim) const
   return slow * wanted;
 }
 
-// Joints that change their speed each in its own time could make the tool faster than before and after; and as they
-// turn, the tool gets faster by itself. Then they change it together, but each brakes for its stops.
+// Joints that change their speed each in its own time leave the way that they are on, and could make the tool faster
+// than before and after; as they turn, it gets faster by itself. Then, and where the arm brakes for what is ahead, they
+// change it together, but each brakes for its stops.
 JointVector Governor::together(const JointState& now, const JointVector& wanted, double margin) const {
   double share = 1;
+  bool waits = false;  // for an arm that is held up: at once
   JointVector soon = now.velocity;
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
+    waits = waits || ahead(now, now.velocity[i], i) > guard_.lead / 2;
     const double most = acceleration_of(limits(i)) * dt_, change = wanted[i] - now.velocity[i];
     soon[i] += std::clamp(change, -most, most);
     if (std::abs(change) > most) share = std::min(share, most / std::abs(change));
   }
-  if (!(tool_speed(now.position, soon) > kToolSpeed)) return wanted;
+  const bool fast = tool_speed(now.position, soon) > kToolSpeed;
+  const bool brakes = guard_.pace < 1 && !waits && wanted.norm() < now.velocity.norm();
+  if (!fast && !brakes) return wanted;
   JointVector slower = now.velocity + share * (wanted - now.velocity);
   for (Eigen::Index i = 0; i < wanted.size(); ++i) {
     const auto [slowest, fastest] = allowed(now.position[i], limits(i), margin);
     slower[i] = std::clamp(slower[i], slowest, fastest);
   }
-  slower = slowed(now.position, slower, 1);
+  if (!fast) return slower;
   acted_.note(Limit::tool_speed);
-  return slower;
+  return slowed(now.position, slower, 1);
 }
 
 // That leads a joint towards a velocity.

@@ -97,6 +97,7 @@ class Governor {
   double tool_speed(const JointVector& q, const JointVector& velocity) const;
   JointVector slowed(const JointVector& q, const JointVector& velocity, double pace) const;
   double speed_asked(const JointState& now, const Aim& aim, Eigen::Index joint) const;
+  double ahead(const JointState& now, double wanted, Eigen::Index joint) const;
   JointVector speeds_wanted(const JointState& now, const Aim& aim) const;
   JointVector together(const JointState& now, const JointVector& wanted, double margin) const;
   double acceleration(const JointState& now, double velocity, Eigen::Index joint) const;

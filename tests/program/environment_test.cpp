@@ -343,6 +343,27 @@ TEST_CASE("what cannot be done is said, and nothing changes") {
                     Catch::Contains("joint_positions"));
 }
 
+TEST_CASE("an arm may be sent to where it was measured, a little beyond its stops") {
+  Environment world = environment("pick_and_lift", {.channels = {"joint_positions", "gripper_opening"}});
+  const EnvironmentObservation before = world.reset({.seed = 2});
+  AgentAction action{.space = "joint_position", .values = before["joint_positions"].reals()};
+  action.values.resize(7);  // without the fingers
+  const ActionComponent turn = world.spaces().front().components[6];
+  REQUIRE(turn.name == "panda.joint7");
+  const auto sent_over = [&](double joint, double hand) {
+    action.values[6] = turn.upper + joint;
+    action.gripper = 0.08 + hand;
+    const std::optional<ActionRefusal> refusal = world.step(action).refusal;
+    return refusal ? refusal->what : "";
+  };
+  for (int i = 0; i < 60; ++i) REQUIRE(sent_over(0.9e-3, 0.9e-3) == "");
+  const EnvironmentObservation now = world.step(action).observation;
+  CHECK(now["joint_positions"].reals()[6] == Approx(turn.upper).margin(1e-3));
+  CHECK(now["gripper_opening"].reals()[0] == Approx(0.08).margin(1e-3));
+  CHECK_THAT(sent_over(1.1e-3, 0), Catch::StartsWith("panda.joint7 is out of its bounds"));
+  CHECK_THAT(sent_over(0, 1.1e-3), Catch::StartsWith("opening is out of its bounds"));
+}
+
 TEST_CASE("a skill goes on in parts, and another action cuts it off") {
   const TaskPlan plan = session()->plan("pick_and_lift", {.seed = 3});
   REQUIRE_FALSE(plan.steps.empty());

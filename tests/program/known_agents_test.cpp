@@ -34,7 +34,7 @@ constexpr const char* kPictures =
 
 const std::vector<KnownAgent>& known_agents() {
   static const std::vector<KnownAgent> agents = {
-      {.hash = "3a6df5f6146e2870c8d128f0c1191f67",
+      {.hash = "93119d3d7da27fb245cfe673b3465250",
        .task = "pick_and_lift",
        .channels = kNumbers,
        .settings = {.reward = RewardKind::dense, .record = true, .torque_noise = 0.2},

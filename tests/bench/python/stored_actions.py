@@ -1,4 +1,4 @@
-"""How many demos do their task again by the actions stored with them: stored_actions.py [TASK…] [--demos N] [--seed N] [--stops]
+"""How many demos do their task again by the actions stored with them: stored_actions.py [TASK…] [--demos N] [--seed N] [--stops] [--measured]
 
 Makes demos of each task, goes back to the start of each and gives an environment what is stored of each frame, joint
 positions and opening of the hand, as a policy would that knows the data by heart; the last of them up to two seconds on.
@@ -21,10 +21,12 @@ WHERE (object_a = 'panda' OR object_b = 'panda') AND object_a <> object_b
 """
 
 
-def replay(env: stampede.Env, episode: _core.Episode) -> tuple[str, int]:
+def replay(env: stampede.Env, episode: _core.Episode, measured: bool) -> tuple[str, int]:
     """Why it does not reach its goal, empty: it does; and how many frames later than the demo."""
-    stored = env.session.arrays(episode, ["action/joint_position", "action/gripper"])
+    stored = env.session.arrays(episode, ["action/joint_position", "action/gripper", "joint_positions"])
     actions = np.column_stack([stored["action/joint_position"], stored["action/gripper"]])[:-1]  # the last frame has none
+    if measured:
+        actions[:, :-1] = stored["joint_positions"][1:, : actions.shape[1] - 1]
     env.reset(options={"variation": episode.variation, "seed": episode.seed})
     for number, action in enumerate([*actions, *[actions[-1]] * WAIT], 1):
         _, _, ended, cut, info = env.step(action.astype(env.action_space.dtype))
@@ -43,6 +45,7 @@ def main() -> None:
     parser.add_argument("--demos", type=int, default=3, help="of each task")
     parser.add_argument("--seed", type=int, default=0, help="of the first")
     parser.add_argument("--stops", action="store_true", help="demos that stand at their via-points")
+    parser.add_argument("--measured", action="store_true", help="where the arm was a frame later, not where it was sent")
     options = parser.parse_args()
     wanted = ["motion.stop_at_vias=1"] if options.stops else []
     total = done = waited = 0
@@ -58,7 +61,7 @@ def main() -> None:
             if not episode.success:
                 print(f"{name} {seed}: no demo: {episode.reason} {episode.detail}".split("\n")[0], flush=True)
                 continue
-            why, late = replay(env, episode)
+            why, late = replay(env, episode, options.measured)
             total, done, waited = total + 1, done + (not why), waited + (late > 0)
             if why or late:
                 print(f"{name} {seed}: {why or f'{late} frames late'}", flush=True)

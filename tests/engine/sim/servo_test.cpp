@@ -152,6 +152,30 @@ TEST_CASE("an arm that has to be slow keeps to its way", "[sim]") {
   CHECK(aside < 0.1 * (to - from).norm());
 }
 
+TEST_CASE("an arm that brakes for what is ahead stays on the way that it is on", "[sim]") {
+  World world(shared(table_scene(0)));
+  grip(world, 0);
+  const JointVector fast = (JointVector(7) << 0.6, 1.2, 0, 0, 0, 0, 1.5).finished();  // each can brake its own way
+  JointVector from;
+  double aside = 0;
+  bool slowed = false;
+  for (int i = 0; i < 240; ++i) {
+    world.apply(Servo{Servo::Of::velocity, fast});
+    run(world, 0.05);
+    const JointState now = world.reference();
+    slowed = slowed || now.velocity.norm() < 0.9 * fast.norm();
+    if (from.size() == 0 && now.velocity == fast) from = now.position, slowed = false;
+    if (from.size() == 0 || !slowed) continue;
+    if (now.velocity.norm() < 0.1 * fast.norm()) break;  // what comes then is contact
+    const JointVector gone = now.position - from;
+    aside = std::max(aside, (gone - fast * (gone.dot(fast) / fast.squaredNorm())).norm());
+  }
+  CAPTURE(world.world_from_tip().translation().z());
+  CHECK(slowed);
+  CHECK(from.size() == 7);
+  CHECK(aside < 1e-3);
+}
+
 TEST_CASE("no torque is weightlessness, any torque keeps joints between their stops, and the arm goes on from there",
           "[sim]") {
   World world(shared(table_scene(0)));
