@@ -99,7 +99,7 @@ bool feasible(const CollisionState& state, const GraspCandidate& grasp, const Jo
     if (!follow) return true;
     PartWay way = *follow;
     way.opening = grasp.width;
-    if (way_with_part(state, *there, way, key)) return true;
+    if (can_go_with_part(state, *there, way, key)) return true;
   }
   return false;
 }

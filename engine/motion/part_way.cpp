@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "engine/model/body_tree.h"
@@ -95,11 +96,30 @@ double turn_step(const PartWay& way) {
 // Steps that the handle may turn in the hand, either way.
 int most_turns(const PartWay& way) { return way.turn == 0 ? 0 : static_cast<int>(way.pivot / turn_step(way)); }
 
-// Dynamic programming over layers, places of the part on its way; a layer has a node for each turn of the handle in the
-// hand or, where `elbows` says so, for each of that many steps of the elbow either way.
+// From a layer to the next, by thirds: the part, and all else, at each.
+class Passage {
+ public:
+  explicit Passage(std::array<CollisionState, 3> states) : states_(std::move(states)) {}
+  bool free(const JointVector& from, const JointVector& to) {
+    constexpr std::array kShares{1.0 / 3, 2.0 / 3, 1.0};
+    for (std::size_t i = 0; i < kShares.size(); ++i)
+      if (queries_[i].touches(from + kShares[i] * (to - from))) return false;
+    return true;
+  }
+
+ private:
+  std::array<CollisionState, 3> states_;
+  std::array<CollisionQuery, 3> queries_{CollisionQuery(states_[0]), CollisionQuery(states_[1]),
+                                         CollisionQuery(states_[2])};
+};
+
+// What an arm may choose on its way, beside what the part asks: how the handle turns in the hand, or the elbow.
+enum class Choice { handle, elbow };
+
+// Dynamic programming over layers, places of the part on its way; a layer has a node for each step of what is chosen.
 class WaySearch {
  public:
-  WaySearch(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key, int elbows)
+  WaySearch(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key, Choice choice)
       : arm_(state.arm()),
         start_(start),
         way_(way),
@@ -107,17 +127,22 @@ class WaySearch {
         held_(arm_.world_from_tip(start)),
         count_(layers_of(way)),
         step_(turn_step(way)),
-        elbow_turns_(elbows > 0),
-        most_(elbow_turns_ ? elbows : most_turns(way)),
+        elbow_turns_(choice == Choice::elbow),
+        most_(elbow_turns_ ? kMostElbows : most_turns(way)),
         next_(elbow_turns_ ? 1 : kMostTurns),
-        layers_(count_ + 1, std::vector<LayerNode>(static_cast<std::size_t>(2 * most_) + 1)),
+        passages_(count_ + 1),
         holding_(with_part_held(state, start, way)),
-        links_(holding_) {
-    layers_[0][static_cast<std::size_t>(most_)] = {start, elbow_turns_ ? elbow_of(arm_, start, {}) : JointVector{}, 0,
-                                                   -1};
+        links_(holding_) {}
+
+  // Whether one way through is found by going on from each node at once, the handle or the elbow turned little: soon,
+  // but `false` says nothing, since a node is as it was come by first.
+  bool goes_straight_through() {
+    begin();
+    return leads_on(0, 0);
   }
 
   std::optional<ArmWay> find(bool whole) {
+    begin();
     for (std::size_t k = 1; k <= count_ && grow(k); ++k) {
     }
     // The last layer, or the last one from which the hand gets away.
@@ -129,6 +154,11 @@ class WaySearch {
   }
 
  private:
+  void begin() {
+    layers_.assign(count_ + 1, std::vector<LayerNode>(static_cast<std::size_t>(2 * most_) + 1));
+    node_at(0, 0) = {start_, elbow_turns_ ? elbow_of(arm_, start_, {}) : JointVector{}, 0, -1};
+  }
+
   double share_of(std::size_t layer) const { return static_cast<double>(layer) / static_cast<double>(count_); }
 
   LayerNode& node_at(std::size_t layer, int step) { return layers_[layer][static_cast<std::size_t>(step + most_)]; }
@@ -139,46 +169,90 @@ class WaySearch {
     return there;
   }
 
+  Passage& passage_to(std::size_t k) {
+    if (!passages_[k]) {
+      const double share = share_of(k), last = share_of(k - 1);
+      const auto at = [&](double place) {
+        CollisionState there = with_part_at(place);
+        return share > way_.stop ? space_of_line(there, false) : there;
+      };
+      passages_[k] = std::make_unique<Passage>(
+          std::array<CollisionState, 3>{at(last + (share - last) / 3), at(last + 2 * (share - last) / 3), at(share)});
+    }
+    return *passages_[k];
+  }
+
   // Finds the nodes of a layer; false: there are none.
   bool grow(std::size_t k) {
-    const double share = share_of(k), last = share_of(k - 1);
-    const Transform moved = way_.moved(share);
-    const auto at = [&](double place) {
-      CollisionState there = with_part_at(place);
-      return share > way_.stop ? space_of_line(there, false) : there;
-    };
-    const std::array third{1.0 / 3, 2.0 / 3, 1.0};
-    const std::array<CollisionState, 3> on_the_way{at(last + (share - last) / 3), at(last + 2 * (share - last) / 3),
-                                                   at(share)};
-    std::array<CollisionQuery, 3> queries{CollisionQuery(on_the_way[0]), CollisionQuery(on_the_way[1]),
-                                          CollisionQuery(on_the_way[2])};
-    const auto free = [&](const JointVector& from, const JointVector& to) {
-      for (std::size_t i = 0; i < third.size(); ++i)
-        if (queries[i].touches(from + third[i] * (to - from))) return false;
-      return true;
-    };
     bool any = false;
-    for (int j = -most_; j <= most_; ++j) {
-      const Transform tip = elbow_turns_ ? Transform(moved * held_) : turned(moved * held_, way_.axis, j * step_);
-      for (int i = std::max(-most_, j - next_); i <= std::min(most_, j + next_); ++i) try_step(k, i, j, tip, free);
-      any = any || node_at(k, j).from >= 0;
-    }
+    for (int j = -most_; j <= most_; ++j) any = reach(k, j) || any;
     return any;
   }
 
-  // From node `i` of the layer before to node `j`, if that costs less than how it is reached so far.
-  template <typename Free>
-  void try_step(std::size_t k, int i, int j, const Transform& tip, const Free& free) {
+  // A step to a node from one of the layer before: at least what it costs, and once that is known where it leads.
+  struct Step {
+    int from;
+    double cost;
+    std::optional<JointVector> q;
+  };
+
+  // Node `j` of a layer, by the cheapest free step. Joints are solved for, and looked at, in the order of costs.
+  bool reach(std::size_t k, int j) {
+    std::vector<Step> steps;
+    for (int i = std::max(-most_, j - next_); i <= std::min(most_, j + next_); ++i)
+      if (node_at(k - 1, i).cost < std::numeric_limits<double>::infinity())
+        steps.push_back({i, least_cost(k, i, j), {}});
+    while (!steps.empty()) {
+      const auto step =
+          std::min_element(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.cost < b.cost; });
+      if (!step->q) {
+        step->q = stepped(k, step->from, j);
+        if (step->q) {
+          step->cost += (*step->q - node_at(k - 1, step->from).q).squaredNorm();
+          continue;
+        }
+      } else if (taken(k, step->from, j, *step->q, step->cost)) {
+        return true;
+      }
+      steps.erase(step);
+    }
+    return false;
+  }
+
+  // The joints at node `j` of a layer, coming from node `i` of the one before.
+  std::optional<JointVector> stepped(std::size_t k, int i, int j) {
     const LayerNode& from = node_at(k - 1, i);
-    LayerNode& node = node_at(k, j);
-    const double bend = elbow_turns_ ? 0 : kPivotCost * step_ * (j - i);
-    if (from.cost + bend * bend >= node.cost) return;
+    const Transform with_part = way_.moved(share_of(k)) * held_;
+    const Transform tip = elbow_turns_ ? with_part : turned(with_part, way_.axis, j * step_);
     const JointVector guess = elbow_turns_ ? JointVector(from.q + (j - i) * kElbowStep * from.elbow) : from.q;
-    const auto q = arm_.solve(tip, guess, key_.with(static_cast<std::int64_t>(k)), 0);
-    if (!q || joint_gap(*q, from.q) > kLayerJump) return;
-    const double cost = from.cost + (*q - from.q).squaredNorm() + bend * bend;
-    if (cost >= node.cost || links_.links_within(*q, kLinksApart) || !free(from.q, *q)) return;
-    node = {*q, elbow_turns_ ? elbow_of(arm_, *q, from.elbow) : JointVector{}, cost, i + most_};
+    std::optional<JointVector> q = arm_.solve(tip, guess, key_.with(static_cast<std::int64_t>(k)), 0);
+    if (q && joint_gap(*q, from.q) > kLayerJump) return std::nullopt;
+    return q;
+  }
+
+  // Makes it the node, if the arm is free there and on its way there.
+  bool taken(std::size_t k, int i, int j, const JointVector& q, double cost) {
+    const LayerNode& from = node_at(k - 1, i);
+    if (links_.links_within(q, kLinksApart) || !passage_to(k).free(from.q, q)) return false;
+    node_at(k, j) = {q, elbow_turns_ ? elbow_of(arm_, q, from.elbow) : JointVector{}, cost, i + most_};
+    return true;
+  }
+
+  bool leads_on(std::size_t k, int i) {
+    if (k == count_) return can_retreat(with_part_at(1), node_at(k, i).q, way_.retreat, key_.with("retreat"));
+    for (int bend = 0; bend <= next_; ++bend)
+      for (const int j : {i - bend, i + bend}) {
+        if (std::abs(j) > most_ || node_at(k + 1, j).from >= 0) continue;
+        const std::optional<JointVector> q = stepped(k + 1, i, j);
+        if (q && taken(k + 1, i, j, *q, 0) && leads_on(k + 1, j)) return true;
+      }
+    return false;
+  }
+
+  // Of a step, before the arm's own motion is known.
+  double least_cost(std::size_t k, int i, int j) {
+    const double bend = elbow_turns_ ? 0 : kPivotCost * step_ * (j - i);
+    return node_at(k - 1, i).cost + bend * bend;
   }
 
   // The cheapest node of a layer from which the hand gets away.
@@ -218,6 +292,7 @@ class WaySearch {
   bool elbow_turns_;
   int most_, next_;  // steps either way in all, and from a layer to the next
   std::vector<std::vector<LayerNode>> layers_;
+  std::vector<std::unique_ptr<Passage>> passages_;  // to each layer
   CollisionState holding_;
   CollisionQuery links_;
 };
@@ -281,16 +356,22 @@ ArmWay first_of(const ArmWay& way, double share) {
 
 std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                     RandomKey key) {
-  auto found = WaySearch(state, start, way, key, 0).find(true);
+  auto found = WaySearch(state, start, way, key, Choice::handle).find(true);
   if (found || !elbow_may_turn(state.arm(), way)) return found;
-  return WaySearch(state, start, way, key, kMostElbows).find(true);
+  return WaySearch(state, start, way, key, Choice::elbow).find(true);
+}
+
+bool can_go_with_part(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key) {
+  WaySearch search(state, start, way, key, Choice::handle);
+  return search.goes_straight_through() || search.find(true) ||
+         (elbow_may_turn(state.arm(), way) && WaySearch(state, start, way, key, Choice::elbow).find(true));
 }
 
 std::optional<ArmWay> furthest_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                          RandomKey key) {
-  auto found = WaySearch(state, start, way, key, 0).find(false);
+  auto found = WaySearch(state, start, way, key, Choice::handle).find(false);
   if ((found && found->reach == 1) || !elbow_may_turn(state.arm(), way)) return found;
-  auto other = WaySearch(state, start, way, key, kMostElbows).find(false);
+  auto other = WaySearch(state, start, way, key, Choice::elbow).find(false);
   return other && (!found || other->reach > found->reach) ? other : found;
 }
 

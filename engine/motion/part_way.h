@@ -35,6 +35,8 @@ struct ArmWay {
 // where it cannot turn, of the elbow: the least motion of the joints. Result: nothing when there is none. Repeatable.
 std::optional<ArmWay> way_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                     RandomKey key);
+// Whether there is one: sooner known than the best.
+bool can_go_with_part(const CollisionState& state, const JointVector& start, const PartWay& way, RandomKey key);
 // The same as far as it goes: to the end, or to where the arm cannot follow. Nothing: not even a little.
 std::optional<ArmWay> furthest_with_part(const CollisionState& state, const JointVector& start, const PartWay& way,
                                          RandomKey key);

@@ -131,7 +131,7 @@ Tail make_tail(const MotionProblem& at_first, const std::vector<ToolTarget>& tar
     if (line.reason != Reason::none) return refuse(line.reason, "on from " + targets[i - 1].name + ": " + line.detail);
     from = line.dense.back();
   }
-  if (then.part != nullptr && !way_with_part(state, from, *then.part, at_first.key.with("then")))
+  if (then.part != nullptr && !can_go_with_part(state, from, *then.part, at_first.key.with("then")))
     return refuse(Reason::unreachable, "from " + targets.back().name + " the arm cannot go with what it takes hold of");
   for (std::size_t k = 0; then.pieces != nullptr && k < then.pieces->size(); ++k) {
     const ToolPiece& piece = (*then.pieces)[k];
