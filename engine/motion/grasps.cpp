@@ -78,15 +78,41 @@ std::optional<JointVector> followed(const Arm& arm, JointVector q, int steps, co
   return q;
 }
 
+// Whether the arm can go on with the part that it takes hold of. Asked once of each place: a hand that comes there less
+// wide open, since nothing else found room, holds the part no differently.
+class GoingOn {
+ public:
+  GoingOn(const std::optional<PartWay>& follow, RandomKey key) : follow_(follow), key_(key) {}
+  bool from(const CollisionState& state, const JointVector& q, double width) {
+    if (!follow_) return true;
+    for (const Answer& one : known_)
+      if (one.width == width && one.q == q) return one.goes;
+    PartWay way = *follow_;
+    way.opening = width;
+    known_.push_back({q, width, can_go_with_part(state, q, way, key_)});
+    return known_.back().goes;
+  }
+  // Who has to slide a part needs the right joints; a handle that turns in the hand leaves more of a choice.
+  bool slides() const { return follow_ && follow_->turn == 0; }
+
+ private:
+  struct Answer {
+    JointVector q;
+    double width;
+    bool goes;
+  };
+  std::optional<PartWay> follow_;
+  RandomKey key_;
+  std::vector<Answer> known_;
+};
+
 // Reachable and free at both poses, and the arm can go straight from one to the other.
 bool feasible(const CollisionState& state, const GraspCandidate& grasp, const JointVector& start, RandomKey key,
-              const std::optional<PartWay>& follow) {
+              GoingOn& going_on) {
   const Arm& arm = state.arm();
   // The hand alone first: among neighbours most grasps end there, and need no inverse kinematics.
   if (!state.hand_free(grasp.world_from_tip, kHair_m) || !state.hand_free(grasp.world_from_approach)) return false;
-  // Who has to slide a part needs the right one of them; a handle that turns in the hand leaves more of a choice.
-  const bool slides = follow && follow->turn == 0;
-  const int most = slides ? 6 : 3, restarts = slides ? 24 : 12;
+  const int most = going_on.slides() ? 6 : 3, restarts = going_on.slides() ? 24 : 12;
   for (const JointVector& q : arm.solutions(grasp.world_from_approach, start, key, most, restarts)) {
     if (!state.free(q)) continue;
     const auto approach = [&](double way) {
@@ -95,11 +121,7 @@ bool feasible(const CollisionState& state, const GraspCandidate& grasp, const Jo
       return tip;
     };
     const std::optional<JointVector> there = followed(arm, q, 4, approach, key);
-    if (!there || !state.free(*there)) continue;
-    if (!follow) return true;
-    PartWay way = *follow;
-    way.opening = grasp.width;
-    if (can_go_with_part(state, *there, way, key)) return true;
+    if (there && state.free(*there) && going_on.from(state, *there, grasp.width)) return true;
   }
   return false;
 }
@@ -116,7 +138,8 @@ Looked judged(const CollisionState& state, const GraspCandidate& grasp, const Jo
   looked.approach = true;
   if (!free(state.arm().solutions(grasp.world_from_approach, start, key, 3, 12))) return looked;
   looked.approach = false;
-  looked.fate = feasible(state, grasp, start, key, {}) ? Looked::Fate::usable : Looked::Fate::no_way;
+  GoingOn nowhere({}, key);
+  looked.fate = feasible(state, grasp, start, key, nowhere) ? Looked::Fate::usable : Looked::Fate::no_way;
   return looked;
 }
 
@@ -189,6 +212,8 @@ Transform world_from_object(const World& world, const Object& object) {
 
 std::vector<GraspCandidate> grasp_candidates(const GraspQuery& query, int most, const std::optional<PartWay>& follow) {
   const Search search(query, follow);
+  const RandomKey key = query.key.with("ik");
+  GoingOn going_on(follow, key);
   std::vector<GraspCandidate> found;
   CollisionState hand = search.hand(query.state);
   for (const double room : {search.opening_max, kNarrow_m}) {  // among neighbours open fingers need not be wide open
@@ -198,7 +223,7 @@ std::vector<GraspCandidate> grasp_candidates(const GraspQuery& query, int most, 
       GraspCandidate grasp = search.candidate(option, room);
       grasp.index = static_cast<int>(found.size());
       hand.set_opening(grasp.opening);
-      if (!feasible(hand, grasp, query.start, query.key.with("ik"), follow)) continue;
+      if (!feasible(hand, grasp, query.start, key, going_on)) continue;
       if (!query.wanted || query.wanted(grasp)) found.push_back(grasp);
     }
   }
