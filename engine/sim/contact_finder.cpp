@@ -32,6 +32,15 @@ void list_manifolds(btCollisionAlgorithm& algorithm, btManifoldArray& manifolds)
     pieces->btCompoundCollisionAlgorithm::getAllContactManifolds(manifolds);
 }
 
+// As far as a point of a link has moved at most, from one place of the link to another.
+double most_moved(const std::vector<Dispatcher::Piece>& link, const Transform& from, const Transform& to) {
+  double radius = 0;  // m
+  for (const Dispatcher::Piece& piece : link)
+    radius =
+        std::max(radius, (piece.object_from_shape * piece.convex.box_centre).norm() + piece.convex.box_half.norm());
+  return (to.translation() - from.translation()).norm() + radius * (to.linear() - from.linear()).norm();
+}
+
 bool same_pieces(const btManifoldPoint& one, const btManifoldPoint& other) {
   return one.m_index0 == other.m_index0 && one.m_index1 == other.m_index1;
 }
@@ -45,15 +54,30 @@ bool PairFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy
   return !(one.isStaticObject() && two.isStaticObject());
 }
 
-bool Dispatcher::apart(const btCollisionObject& one, const btCollisionObject& other) const {
-  constexpr double kNear_m = 0.015;  // more than two links go towards each other in a step
-  const Transform at_one = from_bullet(one.getWorldTransform()), at_other = from_bullet(other.getWorldTransform());
-  for (const Piece& a : links[static_cast<std::size_t>(one.getUserIndex2())]) {
-    const Transform at_a = product(at_one, a.object_from_shape);
-    for (const Piece& b : links[static_cast<std::size_t>(other.getUserIndex2())])
-      if (closer_than(a.convex, at_a, b.convex, product(at_other, b.object_from_shape), kNear_m)) return false;
-  }
-  return true;
+bool Dispatcher::within(const std::vector<Piece>& one, const std::vector<Piece>& other, const Transform& one_from_other,
+                        double distance) const {
+  return std::ranges::any_of(one, [&](const Piece& a) {
+    return std::ranges::any_of(other, [&](const Piece& b) {
+      return closer_than(a.convex, a.object_from_shape, b.convex, product(one_from_other, b.object_from_shape),
+                         distance);
+    });
+  });
+}
+
+bool Dispatcher::apart(const btCollisionObject& one, const btCollisionObject& other) {
+  constexpr double kNear_m = 0.015;   // more than two links go towards each other in a step
+  constexpr double kFar_m = 0.06;     // what is so far apart is not looked at again soon
+  constexpr double kAgain_m = 0.005;  // what is nearer may be far once it has moved so much
+  const auto first = static_cast<std::size_t>(one.getUserIndex2()),
+             second = static_cast<std::size_t>(other.getUserIndex2());
+  const std::vector<Piece>&pieces = links[first], &others = links[second];
+  const Transform now = product(from_bullet(one.getWorldTransform()).inverse(), from_bullet(other.getWorldTransform()));
+  looked_.resize(links.size() * links.size());
+  Looked& looked = looked_[first * links.size() + second];
+  const double moved = looked.known ? most_moved(others, looked.one_from_other, now) : 1;  // m
+  if (looked.far && moved < kFar_m - kNear_m) return true;
+  if (looked.far || moved > kAgain_m) looked = {true, !within(pieces, others, now, kFar_m), now};
+  return looked.far || !within(pieces, others, now, kNear_m);
 }
 
 double contact_margin(const btCollisionObject& one, const btCollisionObject& other) {

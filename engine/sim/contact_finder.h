@@ -44,7 +44,7 @@ struct Dispatcher final : btCollisionDispatcher {
   }
   btPersistentManifold* getNewManifold(const btCollisionObject* one, const btCollisionObject* other) override;
   static void look_at(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info);
-  bool apart(const btCollisionObject& one, const btCollisionObject& other) const;
+  bool apart(const btCollisionObject& one, const btCollisionObject& other);
   // Searches on from this pair's points of `kept`.
   void put_back(btBroadphasePair& pair, const btDispatcherInfo& info);
   void find_again(btBroadphasePair& pair, const LostContact& lost, const btDispatcherInfo& info);
@@ -61,7 +61,16 @@ struct Dispatcher final : btCollisionDispatcher {
   void press_together(btBroadphasePair& pair, const btCollisionObject& first, const btManifoldPoint& point,
                       const btDispatcherInfo& info);
 
-  btManifoldArray listed_;  // of the pair that is looked at
+  // Two links where they were looked at last: so far apart that they are none the nearer until they have moved as far.
+  struct Looked {
+    bool known = false, far = false;
+    Transform one_from_other;
+  };
+  bool within(const std::vector<Piece>& one, const std::vector<Piece>& other, const Transform& one_from_other,
+              double distance) const;
+
+  std::vector<Looked> looked_;  // by the numbers of both
+  btManifoldArray listed_;      // of the pair that is looked at
 };
 
 struct ContactFinder {
