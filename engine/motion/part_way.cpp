@@ -240,12 +240,12 @@ class WaySearch {
 
   bool leads_on(std::size_t k, int i) {
     if (k == count_) return can_retreat(with_part_at(1), node_at(k, i).q, way_.retreat, key_.with("retreat"));
-    for (int bend = 0; bend <= next_; ++bend)
-      for (const int j : {i - bend, i + bend}) {
-        if (std::abs(j) > most_ || node_at(k + 1, j).from >= 0) continue;
-        const std::optional<JointVector> q = stepped(k + 1, i, j);
-        if (q && taken(k + 1, i, j, *q, 0) && leads_on(k + 1, j)) return true;
-      }
+    for (int turn = 0; turn <= 2 * next_; ++turn) {  // on, a little to either side, more
+      const int j = i + (turn % 2 == 0 ? turn / 2 : -(turn + 1) / 2);
+      if (std::abs(j) > most_ || node_at(k + 1, j).from >= 0) continue;
+      const std::optional<JointVector> q = stepped(k + 1, i, j);
+      if (q && taken(k + 1, i, j, *q, 0) && leads_on(k + 1, j)) return true;
+    }
     return false;
   }
 

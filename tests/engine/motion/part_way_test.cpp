@@ -77,6 +77,29 @@ TEST_CASE("the elbow turns where an arm could not slide something on with it as 
   CHECK(with_elbow > as_it_is);
 }
 
+TEST_CASE("whether there is a way is known wherever one is found, of doors and of drawers") {
+  const World world(cluttered_scene());
+  const CollisionState state = world.collision_state();
+  Random random(RandomKey("doors"));
+  int ways = 0, none = 0, soon_only = 0;
+  for (int i = 0; i < 120; ++i) {
+    const JointVector start = random_free(state, random);
+    Transform hinge = state.arm().world_from_tip(start);
+    hinge.translation() += Vector3(0, 0.3, 0);
+    PartWay way = turning(hinge, i % 3 == 0 ? 0 : 1.2);  // a drawer, or a door
+    if (way.turn == 0) way.moved = [](double share) { return translation(0, 0, share * 0.25); };
+    way.pivot = i % 3 == 1 ? 0.6 : 0;
+    const bool found = way_with_part(state, start, way, RandomKey("way")).has_value();
+    const bool can = can_go_with_part(state, start, way, RandomKey("way"));
+    CHECK((can || !found));
+    ++(found ? ways : none);
+    if (can && !found) ++soon_only;
+  }
+  CHECK(ways > 10);
+  CHECK(none > 10);
+  CHECK(soon_only <= 2);
+}
+
 TEST_CASE("a part that cannot be followed at all is no way") {
   const World world(std::make_shared<Scene>(table_scene(0)));
   const CollisionState state = world.collision_state();
