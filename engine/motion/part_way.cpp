@@ -137,6 +137,7 @@ class WaySearch {
   // Whether one way through is found by going on from each node at once, the handle or the elbow turned little: soon,
   // but `false` says nothing, since a node is as it was come by first.
   bool goes_straight_through() {
+    if (most_ == 0) return false;  // there is one way at most: find() looks no longer for it
     begin();
     return leads_on(0, 0);
   }
@@ -198,6 +199,7 @@ class WaySearch {
 
   // Node `j` of a layer, by the cheapest free step. Joints are solved for, and looked at, in the order of costs.
   bool reach(std::size_t k, int j) {
+    const Transform tip = tip_at(k, j);
     std::vector<Step> steps;
     for (int i = std::max(-most_, j - next_); i <= std::min(most_, j + next_); ++i)
       if (node_at(k - 1, i).cost < std::numeric_limits<double>::infinity())
@@ -206,7 +208,7 @@ class WaySearch {
       const auto step =
           std::min_element(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.cost < b.cost; });
       if (!step->q) {
-        step->q = stepped(k, step->from, j);
+        step->q = stepped(k, step->from, j, tip);
         if (step->q) {
           step->cost += (*step->q - node_at(k - 1, step->from).q).squaredNorm();
           continue;
@@ -219,11 +221,14 @@ class WaySearch {
     return false;
   }
 
-  // The joints at node `j` of a layer, coming from node `i` of the one before.
-  std::optional<JointVector> stepped(std::size_t k, int i, int j) {
-    const LayerNode& from = node_at(k - 1, i);
+  Transform tip_at(std::size_t k, int j) const {
     const Transform with_part = way_.moved(share_of(k)) * held_;
-    const Transform tip = elbow_turns_ ? with_part : turned(with_part, way_.axis, j * step_);
+    return elbow_turns_ ? with_part : turned(with_part, way_.axis, j * step_);
+  }
+
+  // The joints at node `j` of a layer, where the tip is, coming from node `i` of the one before.
+  std::optional<JointVector> stepped(std::size_t k, int i, int j, const Transform& tip) {
+    const LayerNode& from = node_at(k - 1, i);
     const JointVector guess = elbow_turns_ ? JointVector(from.q + (j - i) * kElbowStep * from.elbow) : from.q;
     std::optional<JointVector> q = arm_.solve(tip, guess, key_.with(static_cast<std::int64_t>(k)), 0);
     if (q && joint_gap(*q, from.q) > kLayerJump) return std::nullopt;
@@ -243,7 +248,7 @@ class WaySearch {
     for (int turn = 0; turn <= 2 * next_; ++turn) {  // on, a little to either side, more
       const int j = i + (turn % 2 == 0 ? turn / 2 : -(turn + 1) / 2);
       if (std::abs(j) > most_ || node_at(k + 1, j).from >= 0) continue;
-      const std::optional<JointVector> q = stepped(k + 1, i, j);
+      const std::optional<JointVector> q = stepped(k + 1, i, j, tip_at(k + 1, j));
       if (q && taken(k + 1, i, j, *q, 0) && leads_on(k + 1, j)) return true;
     }
     return false;

@@ -183,10 +183,10 @@ class BodyBuilder {
 
 void BodyBuilder::let_links_meet() {
   for (std::size_t p = 0; p < bodies_.scene().robot.body.parts.size(); ++p) {
-    std::vector<Dispatcher::Piece>& pieces = finder_.dispatcher.links.emplace_back();
+    Dispatcher::Link& link = finder_.dispatcher.links.emplace_back();
     for (const Shape& shape : bodies_.scene().robot.body.parts[p].shapes)
       if (shape.collides)
-        pieces.push_back({Convex(shape), bodies_.body_slot(kRobot).parts[p].link_from_part * shape.part_from_shape});
+        link.add({Convex(shape), bodies_.body_slot(kRobot).parts[p].link_from_part * shape.part_from_shape});
   }
 }
 

@@ -33,12 +33,8 @@ void list_manifolds(btCollisionAlgorithm& algorithm, btManifoldArray& manifolds)
 }
 
 // As far as a point of a link has moved at most, from one place of the link to another.
-double most_moved(const std::vector<Dispatcher::Piece>& link, const Transform& from, const Transform& to) {
-  double radius = 0;  // m
-  for (const Dispatcher::Piece& piece : link)
-    radius =
-        std::max(radius, (piece.object_from_shape * piece.convex.box_centre).norm() + piece.convex.box_half.norm());
-  return (to.translation() - from.translation()).norm() + radius * (to.linear() - from.linear()).norm();
+double most_moved(const Dispatcher::Link& link, const Transform& from, const Transform& to) {
+  return (to.translation() - from.translation()).norm() + link.radius * (to.linear() - from.linear()).norm();
 }
 
 bool same_pieces(const btManifoldPoint& one, const btManifoldPoint& other) {
@@ -54,10 +50,15 @@ bool PairFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy
   return !(one.isStaticObject() && two.isStaticObject());
 }
 
-bool Dispatcher::within(const std::vector<Piece>& one, const std::vector<Piece>& other, const Transform& one_from_other,
-                        double distance) const {
-  return std::ranges::any_of(one, [&](const Piece& a) {
-    return std::ranges::any_of(other, [&](const Piece& b) {
+void Dispatcher::Link::add(Piece piece) {
+  const Vector3 centre = piece.object_from_shape * piece.convex.box_centre;
+  radius = std::max(radius, centre.norm() + piece.convex.box_half.norm());
+  pieces.push_back(std::move(piece));
+}
+
+bool Dispatcher::within(const Link& one, const Link& other, const Transform& one_from_other, double distance) {
+  return std::ranges::any_of(one.pieces, [&](const Piece& a) {
+    return std::ranges::any_of(other.pieces, [&](const Piece& b) {
       return closer_than(a.convex, a.object_from_shape, b.convex, product(one_from_other, b.object_from_shape),
                          distance);
     });
@@ -70,14 +71,14 @@ bool Dispatcher::apart(const btCollisionObject& one, const btCollisionObject& ot
   constexpr double kAgain_m = 0.005;  // what is nearer may be far once it has moved so much
   const auto first = static_cast<std::size_t>(one.getUserIndex2()),
              second = static_cast<std::size_t>(other.getUserIndex2());
-  const std::vector<Piece>&pieces = links[first], &others = links[second];
+  const Link &link = links[first], &linked = links[second];
   const Transform now = product(from_bullet(one.getWorldTransform()).inverse(), from_bullet(other.getWorldTransform()));
   looked_.resize(links.size() * links.size());
   Looked& looked = looked_[first * links.size() + second];
-  const double moved = looked.known ? most_moved(others, looked.one_from_other, now) : 1;  // m
+  const double moved = looked.known ? most_moved(linked, looked.one_from_other, now) : 1;  // m
   if (looked.far && moved < kFar_m - kNear_m) return true;
-  if (looked.far || moved > kAgain_m) looked = {true, !within(pieces, others, now, kFar_m), now};
-  return looked.far || !within(pieces, others, now, kNear_m);
+  if (looked.far || moved > kAgain_m) looked = {true, !within(link, linked, now, kFar_m), now};
+  return looked.far || !within(link, linked, now, kNear_m);
 }
 
 double contact_margin(const btCollisionObject& one, const btCollisionObject& other) {

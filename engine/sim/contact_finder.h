@@ -52,8 +52,13 @@ struct Dispatcher final : btCollisionDispatcher {
     Convex convex;
     Transform object_from_shape;
   };
-  std::vector<std::vector<Piece>> links;  // per part of the robot
-  ContactPoints kept;                     // those that the next search goes on from
+  struct Link {
+    std::vector<Piece> pieces;
+    double radius = 0;  // m, from the link's origin to the furthest that a piece can reach
+    void add(Piece piece);
+  };
+  std::vector<Link> links;  // per part of the robot
+  ContactPoints kept;       // those that the next search goes on from
 
  private:
   btPersistentManifold* manifold_at(const btManifoldPoint& point) const;
@@ -66,8 +71,7 @@ struct Dispatcher final : btCollisionDispatcher {
     bool known = false, far = false;
     Transform one_from_other;
   };
-  bool within(const std::vector<Piece>& one, const std::vector<Piece>& other, const Transform& one_from_other,
-              double distance) const;
+  static bool within(const Link& one, const Link& other, const Transform& one_from_other, double distance);
 
   std::vector<Looked> looked_;  // by the numbers of both
   btManifoldArray listed_;      // of the pair that is looked at
