@@ -50,15 +50,29 @@ endif()
 # The headers that nearly every file includes, compiled once. They belong to nobody: of our own there is none among them.
 set(stampede_common_headers <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory>
   <optional> <set> <sstream> <string> <string_view> <unordered_map> <variant> <vector> <Eigen/Dense>)
-add_library(stampede_precompiled OBJECT ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)
-target_link_libraries(stampede_precompiled PRIVATE stampede_options Eigen3::Eigen)
 target_compile_options(stampede_options INTERFACE -fpch-preprocess)  # for ccache
-target_precompile_headers(stampede_precompiled PRIVATE ${stampede_common_headers})
+# For rooms that say INNER_LOOPS a second time with -O3, which puts Eigen's products of poses where they are used; of
+# precompiled headers GCC keeps the options that they were compiled with.
+function(stampede_precompile name)
+  add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/engine/cmake/precompiled.cpp)
+  target_link_libraries(${name} PRIVATE stampede_options Eigen3::Eigen)
+  target_compile_options(${name} PRIVATE ${ARGN})
+  target_precompile_headers(${name} PRIVATE ${stampede_common_headers})
+endfunction()
+set(stampede_inner_loops $<$<CONFIG:Release>:-O3>
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # false alarms about Eigen's vectors
+stampede_precompile(stampede_precompiled)
+stampede_precompile(stampede_precompiled_inner ${stampede_inner_loops})
 
 # stampede_room(base SOURCES a.cpp … USES rooms and packages its headers need … INSIDE those only its sources need …)
 function(stampede_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;INSIDE" ${ARGN})
+  cmake_parse_arguments(ROOM "INNER_LOOPS" "" "SOURCES;USES;INSIDE" ${ARGN})
   add_library(stampede_${name} STATIC ${ROOM_SOURCES})
   target_link_libraries(stampede_${name} PUBLIC stampede_options ${ROOM_USES} PRIVATE ${ROOM_INSIDE})
-  target_precompile_headers(stampede_${name} REUSE_FROM stampede_precompiled)
+  if(ROOM_INNER_LOOPS)
+    target_compile_options(stampede_${name} PRIVATE ${stampede_inner_loops})
+    target_precompile_headers(stampede_${name} REUSE_FROM stampede_precompiled_inner)
+  else()
+    target_precompile_headers(stampede_${name} REUSE_FROM stampede_precompiled)
+  endif()
 endfunction()

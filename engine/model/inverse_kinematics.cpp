@@ -102,12 +102,12 @@ std::optional<JointVector> Arm::descend(const Transform& base_from_tip, JointVec
     Transform joint = Transform::Identity();
     for (std::size_t i = 0; i < n; ++i) {
       const Eigen::Index column = static_cast<Eigen::Index>(i);
-      joint = joint * parent_from_joint_[i];
+      joint = product(joint, parent_from_joint_[i]);
       origins[i] = joint.translation();
       attempt.jacobian.col(column).tail<3>() = joint.linear() * axes_[i];
-      joint.linear() = (joint.linear() * Eigen::AngleAxisd(q[column], axes_[i]).toRotationMatrix()).eval();
+      joint.linear() *= Eigen::AngleAxisd(q[column], axes_[i]).toRotationMatrix();
     }
-    const Transform tip = joint * last_from_tip_;
+    const Transform tip = product(joint, last_from_tip_);
     for (std::size_t i = 0; i < n; ++i) {
       const Eigen::Index column = static_cast<Eigen::Index>(i);
       const Vector3 axis = attempt.jacobian.col(column).tail<3>();

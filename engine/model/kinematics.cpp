@@ -29,6 +29,10 @@ void check(const Robot& robot) {
   }
 }
 
+void turn(Transform& frame, const Vector3& axis, double angle) {
+  frame.linear() *= Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
 }  // namespace
 
 double lead_of(const Joint& joint) { return joint.kind == JointKind::screw ? joint.pitch / (2 * std::numbers::pi) : 0; }
@@ -69,7 +73,7 @@ void forward_kinematics(const Body& body, const Transform& world_from_base, std:
       here.translation() += way * (here.linear() * joint.axis.normalized());
     }
     if (joint.kind == JointKind::hinge || joint.kind == JointKind::screw)
-      here.linear() *= Eigen::AngleAxisd(part_positions[i], joint.axis.normalized()).toRotationMatrix();
+      turn(here, joint.axis.normalized(), part_positions[i]);
   }
 }
 
@@ -106,13 +110,14 @@ const JointVector& Arm::home() const { return home_; }
 
 Transform Arm::base_from_tip(const JointVector& q) const {
   Transform base_from_joint = Transform::Identity();
-  for (std::size_t i = 0; i < axes_.size(); ++i)
-    base_from_joint =
-        base_from_joint * parent_from_joint_[i] * Eigen::AngleAxisd(q[static_cast<Eigen::Index>(i)], axes_[i]);
-  return base_from_joint * last_from_tip_;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    base_from_joint = product(base_from_joint, parent_from_joint_[i]);
+    turn(base_from_joint, axes_[i], q[static_cast<Eigen::Index>(i)]);
+  }
+  return product(base_from_joint, last_from_tip_);
 }
 
-Transform Arm::world_from_tip(const JointVector& q) const { return world_from_base_ * base_from_tip(q); }
+Transform Arm::world_from_tip(const JointVector& q) const { return product(world_from_base_, base_from_tip(q)); }
 
 Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 16> Arm::jacobian(const JointVector& q) const {
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 16> result(6, q.size());
@@ -120,10 +125,10 @@ Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 16> Arm::jacobian(const JointVect
   Transform world_from_joint = world_from_base_;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const Eigen::Index column = static_cast<Eigen::Index>(i);
-    world_from_joint = world_from_joint * parent_from_joint_[i];
+    world_from_joint = product(world_from_joint, parent_from_joint_[i]);
     origins[i] = world_from_joint.translation();
     result.col(column).tail<3>() = world_from_joint.linear() * axes_[i];
-    world_from_joint = world_from_joint * Eigen::AngleAxisd(q[column], axes_[i]);
+    turn(world_from_joint, axes_[i], q[column]);
   }
   const Vector3 tip = world_from_joint * last_from_tip_.translation();
   for (Eigen::Index i = 0; i < q.size(); ++i) {
@@ -145,11 +150,11 @@ double Arm::greatest_speed(const JointVector& q, const JointVector& velocity, do
   };
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const auto joint = static_cast<Eigen::Index>(i);
-    go_to(world_from_joint * parent_from_joint_[i]);
+    go_to(product(world_from_joint, parent_from_joint_[i]));
     angular += velocity[joint] * (world_from_joint.linear() * axes_[i]);
-    world_from_joint = world_from_joint * Eigen::AngleAxisd(q[joint], axes_[i]);
+    turn(world_from_joint, axes_[i], q[joint]);
   }
-  go_to(world_from_joint * last_from_tip_);
+  go_to(product(world_from_joint, last_from_tip_));
   return greatest;
 }
 

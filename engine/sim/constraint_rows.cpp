@@ -64,7 +64,16 @@ void ConstraintRows::add_point(SolverRow& row, const MoverLink& node, const Vect
 }
 
 void ConstraintRows::add_turn(SolverRow& row, const MoverLink& node, const Vector3& direction) {
-  add_screw(row, node, Vector3::Zero(), Vector3::Zero(), direction);
+  if (node.mover < 0) return;
+  const Mover& mover = movers_[node.mover];
+  if (mover.free) {
+    add_free_side(row, mover, Vector3::Zero(), direction);
+    return;
+  }
+  double* jacobian = tree_side(row, mover);
+  mover.tree->jacobian(node.link, Vector3::Zero(),
+                       [&](int dof, const Vector3&, const Vector3& spin) { jacobian[dof] += spin.dot(direction); });
+  respond(*mover.tree, jacobian);
 }
 
 void ConstraintRows::add_screw(SolverRow& row, const MoverLink& node, const Vector3& point, const Vector3& linear,
@@ -93,6 +102,18 @@ void ConstraintRows::end(SolverRow& row, double target) {
   }
   row.response_inverse = row.response > 1e-15 ? 1 / row.response : 0;
   row.target = target;
+}
+
+void ConstraintRows::scale(std::vector<SolverRow>& rows) {
+  for (SolverRow& row : rows) {
+    Quad* jacobian = &numbers_[static_cast<std::size_t>(row.numbers)];
+    for (const int quads : row.quads) {
+      for (int k = 0; k < quads; ++k)
+        for (double& number : jacobian[k].v) number *= row.response_inverse;
+      jacobian += 2 * quads;
+    }
+    row.target *= row.response_inverse;
+  }
 }
 
 }  // namespace stampede

@@ -37,7 +37,8 @@ class ConstraintRows {
                  const Vector3& angular);
   double* add_side(SolverRow& row, const Mover& mover);  // all 0; whoever fills it lets its tree respond
   static void respond(const Articulation& tree, double* jacobian);
-  void end(SolverRow& row, double target);  // it is complete but for its bounds
+  void end(SolverRow& row, double target);   // it is complete but for its bounds
+  void scale(std::vector<SolverRow>& rows);  // for the loop, which divides no more: the last that happens to them
   void start(SolverRow& row, double impulse) {
     row.impulse = impulse;
     if (impulse != 0) push(numbers_.data(), speeds_.now.data(), row, impulse);

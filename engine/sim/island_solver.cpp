@@ -113,15 +113,41 @@ void IslandSolver::solve(const Island& island, int iterations) {
   const std::size_t joints = joints_.size();
   for (const Bond& bond : movers_.bonds())
     if (movers_.holds_in(bond, island.number)) add_bond_rows(bond, rows_, joints_);
+  rows_.scale(contact_rows_);
+  rows_.scale(joints_);
   if (members.settling || any_deep()) iterations = std::max(iterations, kPatience);
   const SolverIsland all{rows_.numbers(),        speeds_.now.data(), contact_rows_.data(), joints_.data(),
                          contacts_.data(),       link_contacts,      contacts_.size(),     joints,
                          joints_.size() - joints};
   bool agreed = false;
-  for (int i = 0; i < iterations && !agreed; ++i) agreed = solve_rows_(all, i % 2 == 1) <= kSettled;
+  if (members.settling) watch(island);
+  for (int i = 0; i < iterations && !agreed; ++i) {
+    agreed = solve_rows_(all, i % 2 == 1) <= kSettled;
+    // Contacts that bear together may pass impulses round for ever, and nothing goes otherwise for it.
+    if (members.settling && !changed()) break;
+  }
   if (members.alone()) take_no_energy(island, before);
   if (members.alone() && members.settling && !agreed) slow_down(island, kUndecided);
   keep_results();
+}
+
+void IslandSolver::watch(const Island& island) {
+  watched_.clear();
+  for (const Mover& mover : movers_.all()) {
+    if (mover.island != island.number) continue;
+    for (int quad = mover.at; quad < mover.at + mover.quads; ++quad)
+      watched_.push_back({static_cast<std::size_t>(quad), speeds_.now[static_cast<std::size_t>(quad)]});
+  }
+}
+
+bool IslandSolver::changed() {
+  double most = 0;
+  for (Watched& watched : watched_) {
+    const Quad& now = speeds_.now[watched.quad];
+    for (int i = 0; i < 4; ++i) most = std::max(most, std::abs(now.v[i] - watched.speeds.v[i]));
+    watched.speeds = now;
+  }
+  return most > kSettled;
 }
 
 IslandSolver::Motion IslandSolver::free_motion(const Island& island) const {

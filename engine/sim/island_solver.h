@@ -44,6 +44,11 @@ class IslandSolver {
     double mass = 0;                  // kg
   };
 
+  struct Watched {
+    std::size_t quad = 0;
+    Quad speeds;
+  };
+
   void clear();
   Members members_of(const Island& island) const;
   Motion free_motion(const Island& island) const;
@@ -53,6 +58,8 @@ class IslandSolver {
   void add_joints(const Mover& mover);
   void start_motors(const Mover& mover, std::size_t first);
   bool any_deep() const;
+  void watch(const Island& island);
+  bool changed();  // the speeds that are watched, since they were last looked at
   void slow_down(const Island& island, double share);
   void take_no_energy(const Island& island, const Motion& before);
   void keep_results();
@@ -69,6 +76,7 @@ class IslandSolver {
   std::vector<SolverContact> contacts_;
   double parting_ = 0;            // m/s, the most that a contact asks of what lies in each other
   std::vector<Touched> touched_;  // of the contacts
+  std::vector<Watched> watched_;
   std::vector<double> scratch_;
   SolveRows solve_rows_ = fastest_solve_rows();
 };

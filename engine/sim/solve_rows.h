@@ -10,12 +10,13 @@ struct alignas(32) Quad {
   double v[4] = {0, 0, 0, 0};
 };
 
-// A constraint on the speeds of one or two movers: J v = target, by an impulse within bounds.
+// A constraint on the speeds of one or two movers: J v = target, by an impulse within bounds. When the loop begins, J
+// and target are over the response: then their difference is the impulse that is missing.
 struct SolverRow {
   int numbers = 0;                            // where its numbers begin: of each mover J, then M^-1 J^T
   int at[2] = {0, 0}, quads[2] = {0, 0};      // of the movers, in the velocities
   double response = 0, response_inverse = 0;  // J M^-1 J^T
-  double target = 0;                          // m/s or rad/s
+  double target = 0;                          // m/s or rad/s; in the loop N s or N m s
   double impulse = 0, lower = 0, upper = 0;
 };
 

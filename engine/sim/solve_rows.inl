@@ -10,14 +10,17 @@ inline Lanes load(const Quad& quad) {
 
 inline void store(Quad& quad, const Lanes& lanes) { __builtin_memcpy(quad.v, &lanes, sizeof lanes); }
 
-inline double speed_of(const Quad* numbers, const Quad* velocities, const SolverRow& row) {
+inline Lanes speed_of_side(const Quad* jacobian, const Quad* own, int quads) {
   Lanes sum = {0, 0, 0, 0};
+  for (int k = 0; k < quads; ++k) sum += load(jacobian[k]) * load(own[k]);
+  return sum;
+}
+
+// Each side has a sum of its own: what a row waits for is half as long.
+inline double speed_of(const Quad* numbers, const Quad* velocities, const SolverRow& row) {
   const Quad* jacobian = numbers + row.numbers;
-  for (int side = 0; side < 2; ++side) {
-    const Quad* own = velocities + row.at[side];
-    for (int k = 0; k < row.quads[side]; ++k) sum += load(jacobian[k]) * load(own[k]);
-    jacobian += 2 * row.quads[side];
-  }
+  const Lanes sum = speed_of_side(jacobian, velocities + row.at[0], row.quads[0]) +
+                    speed_of_side(jacobian + 2 * row.quads[0], velocities + row.at[1], row.quads[1]);
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
@@ -30,13 +33,13 @@ inline void push_by(const Quad* numbers, Quad* velocities, const SolverRow& row,
   }
 }
 
-inline double wanted(const SolverIsland& island, const SolverRow& row) {
-  return row.impulse + (row.target - speed_of(island.numbers, island.velocities, row)) * row.response_inverse;
+// The change of the impulse that gives the row the speed asked for.
+inline double missing(const SolverIsland& island, const SolverRow& row) {
+  return row.target - speed_of(island.numbers, island.velocities, row);
 }
 
-// The change of the row's speed.
-inline double set_impulse(const SolverIsland& island, SolverRow& row, double impulse) {
-  const double change = impulse - row.impulse;
+// By so much; the change of the row's speed.
+inline double set_impulse(const SolverIsland& island, SolverRow& row, double impulse, double change) {
   if (change == 0) return 0;
   row.impulse = impulse;
   push_by(island.numbers, island.velocities, row, change);
@@ -46,21 +49,27 @@ inline double set_impulse(const SolverIsland& island, SolverRow& row, double imp
 inline double greater(double a, double b) { return a < b ? b : a; }
 
 inline double solve_row(const SolverIsland& island, SolverRow& row) {
-  const double impulse = wanted(island, row);
-  return set_impulse(island, row, impulse < row.lower ? row.lower : impulse > row.upper ? row.upper : impulse);
+  const double change = missing(island, row), impulse = row.impulse + change;
+  if (impulse < row.lower) return set_impulse(island, row, row.lower, row.lower - row.impulse);
+  if (impulse > row.upper) return set_impulse(island, row, row.upper, row.upper - row.impulse);
+  return set_impulse(island, row, impulse, change);
 }
 
 // Two rows whose impulses together are at most `most`.
 inline double solve_cone(const SolverIsland& island, SolverRow& row, SolverRow& other, double most) {
-  double one = wanted(island, row), two = wanted(island, other);
+  if (most == 0 && row.impulse == 0 && other.impulse == 0) return 0;
+  double changes[2] = {missing(island, row), missing(island, other)};
+  double one = row.impulse + changes[0], two = other.impulse + changes[1];
   const double squared = one * one + two * two;
   if (squared > most * most) {
     const double scale = most / __builtin_sqrt(squared);
     one *= scale;
     two *= scale;
+    changes[0] = one - row.impulse;
+    changes[1] = two - other.impulse;
   }
-  const double change = set_impulse(island, row, one);
-  return greater(change, set_impulse(island, other, two));
+  const double change = set_impulse(island, row, one, changes[0]);
+  return greater(change, set_impulse(island, other, two, changes[1]));
 }
 
 inline double solve_contacts(const SolverIsland& island, std::size_t begin, std::size_t end) {
@@ -74,7 +83,7 @@ inline double solve_contacts(const SolverIsland& island, std::size_t begin, std:
       SolverRow& spin = island.rows[contact.spin];
       spin.upper = contact.spinning * pressure;
       spin.lower = -spin.upper;
-      most = greater(most, solve_row(island, spin));
+      if (spin.upper != 0 || spin.impulse != 0) most = greater(most, solve_row(island, spin));
     }
     if (contact.roll >= 0) {
       SolverRow* roll = island.rows + contact.roll;
@@ -83,7 +92,6 @@ inline double solve_contacts(const SolverIsland& island, std::size_t begin, std:
   }
   for (std::size_t i = begin; i < end; ++i) {
     SolverRow* normal = island.rows + island.contacts[i].normal;
-    if (normal->impulse == 0 && normal[1].impulse == 0 && normal[2].impulse == 0) continue;
     most = greater(most, solve_cone(island, normal[1], normal[2], island.contacts[i].friction * normal->impulse));
   }
   return most;

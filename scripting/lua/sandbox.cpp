@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -100,12 +101,13 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
 int on_panic(lua_State*) { throw Error({}, "the script uses too much memory"); }
 
 // A function of C++ may take milliseconds for one instruction, so it is asked often: the clock of the processor, which
-// is slow to read, only where some milliseconds have gone by.
+// is slow to read, only where some milliseconds have gone by. Most calls take microseconds, and never read it.
 bool out_of_time(Sandbox::Impl& impl) {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
-  if (now.tv_nsec == impl.tick) return false;
-  impl.tick = now.tv_nsec;
+  if (impl.tick == now.tv_nsec) return false;
+  const bool first = std::exchange(impl.tick, now.tv_nsec) < 0;
+  if (first) return false;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   const double seconds = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
   if (!impl.started_s) impl.started_s = seconds;

@@ -171,21 +171,21 @@ std::string hash_of_all(const ResearchProblem& problem) {
 
 std::map<std::string, std::string> known_hashes() {
   return {
-      {"abstractions", "3b3d557ecb7859b47fd0bac59ba45115"},
-      {"inventions", "53e59511cb53e785fc5c9a9b00218de2"},
-      {"symbols", "c996c9ce7e69f5c009e1495aa5f26f4e"},
-      {"concepts", "ef0a6e487e8921f50293d329be6d37c8"},
-      {"segments_supervised", "034071b7b403b1466eca941030633ae1"},
-      {"segments", "91db629e4d6385a809ec45ccd1bbc7c4"},
-      {"conditions_supervised", "e6e2c86e58cd507c9cf629f29f6a5b9e"},
-      {"conditions", "c29b7f3ca55aa81ead7401cc8d508aa2"},
-      {"segments_and_conditions", "70cab7e3bb825b11114dc2be210c8cf0"},
-      {"motions", "6d0cfeacda216b2ff1978fd57db02ee6"},
-      {"behaviour", "2e7161841a3dc0f88b725148e3a0efc7"},
-      {"controllers", "a9b0b6ebdaa05cd7b945ed31387b3ca1"},
-      {"transfer", "412159dd06f58491b2dd84ab307c40d8"},
-      {"rewards", "2562a7c02832a07a1d2e155802671f5a"},
-      {"transition_models", "7abd36f19ae497e1745b60f8cf50fe43"},
+      {"abstractions", "883325d40d8336b559597c9a4e3a15c7"},
+      {"inventions", "0afeac7b7a2545e66faa7dbb41d0e3be"},
+      {"symbols", "41712df6764193ffdfe688a945d18deb"},
+      {"concepts", "f9406fb2d1bde78a4cfdf6bd11c2ef0e"},
+      {"segments_supervised", "f27383f36e0107fe7214ea1bbef4eca2"},
+      {"segments", "93b76a3106f057d21ecaeae2b24628ef"},
+      {"conditions_supervised", "f130e4ff2181a3fc036f7b40eea47057"},
+      {"conditions", "e0223b782ceebb80b0f47051fef7410d"},
+      {"segments_and_conditions", "814ec0bab05b3cadb7b771787971439a"},
+      {"motions", "184ef01afa04bdfee37d018a6043315d"},
+      {"behaviour", "46393c38b2d734ccb480399488708782"},
+      {"controllers", "c142f6f748ffa14bb192946a49358ab2"},
+      {"transfer", "cc0097df9ceea9ce9a9076f538ace27c"},
+      {"rewards", "c46385d5a6f998b2f8065e5f496b60e7"},
+      {"transition_models", "5302348d482fc1a550ccefa4db0b7e32"},
   };
 }
 

@@ -51,7 +51,13 @@ struct Rows {
           numbers.push_back(quad);
         }
     row.response_inverse = 1 / row.response;
-    row.target = random.between(-0.1, 0.1);
+    row.target = random.between(-0.1, 0.1) * row.response_inverse;
+    auto jacobian = numbers.begin() + row.numbers;  // from here on over the response, as the target is
+    for (const int quads : row.quads) {
+      for (int k = 0; k < quads; ++k)
+        for (double& number : jacobian[k].v) number *= row.response_inverse;
+      jacobian += 2 * quads;
+    }
     row.lower = -1;
     row.upper = 1;
     to.push_back(row);
@@ -90,7 +96,7 @@ TEST_CASE("iterations lead to speeds that satisfy every row within its bounds", 
   REQUIRE(change <= 1e-12);
   for (const SolverContact& contact : rows.contacts) {
     const SolverRow& normal = rows.rows[static_cast<std::size_t>(contact.normal)];
-    const double miss = speed(rows.numbers.data(), rows.velocities.data(), normal) - normal.target;
+    const double miss = (speed(rows.numbers.data(), rows.velocities.data(), normal) - normal.target) * normal.response;
     CHECK(normal.impulse >= 0);
     CHECK(normal.impulse <= 1);
     if (normal.impulse > 0 && normal.impulse < 1) CHECK(miss == Approx(0).margin(1e-9));
