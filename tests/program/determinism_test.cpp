@@ -113,7 +113,7 @@ const std::vector<KnownRun>& known_runs() {
       {"fc04c4facbc6871842363366596ce6e4", {"basketball_in_hoop", "put_groceries_in_cupboard", "--seed", "1"}},
       {"ed7d1ec948ea48df37a1e203bb76e391", {"sort_blocks", "stack_cups", "--seed", "2"}},
       {"b0e65502c61dd8dd8114b4e8dec19110", {"open_washing_machine", "open_microwave", "--seed", "1"}},
-      {"5a5d671b4f0150d7dcdca8c37c8d4ad8",
+      {"3f59b4ed7c7908d5bb914c71cfded136",
        {"insert_usb_in_computer", "hang_frame_on_hanger", "reach_and_drag", "slide_block_to_target"}},
       {"2e570f3f21e1ca4b87f79c5758806d8b",
        {"stack_blocks", "put_item_in_drawer", "--behaviour", "random_skills", "--skills", "8"}},
@@ -161,7 +161,7 @@ TEST_CASE("the first episode of every task is what all of them are known by") {
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(kRoot) / "tasks"))
     if (entry.path().extension() == ".lua") words.push_back(entry.path().stem());
   CHECK(say(words).code == kDone);
-  CHECK(hash_of(folder / "all.db") == "ef8734d0365fecef2eeec01b237d033b");
+  CHECK(hash_of(folder / "all.db") == "e188a4b7fc773eed10721bdead9d4348");
 }
 
 }  // namespace stampede::program

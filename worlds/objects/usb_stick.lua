@@ -4,7 +4,7 @@ for _, least in ipairs { 0, 6, 12 } do
   for _, side in ipairs { 1, -1 } do -- from above, leaning back from what it is plugged in, by up to 18 degrees
     local low, high = math.rad(least), math.rad(least + 6)
     grasps[#grasps + 1] = { at = { between(-0.012, -0.005), 0, between(0.004 + least * 0.0001, 0.006 + least * 0.0001) }, width = 0.020, approach = 0.07,
-      force = 12, rpy = { 0, side > 0 and between(math.pi - high, math.pi - low) or between(low - math.pi, high - math.pi),
+      force = 40, rpy = { 0, side > 0 and between(math.pi - high, math.pi - low) or between(low - math.pi, high - math.pi),
         side > 0 and 0 or math.pi } }
   end
 end
