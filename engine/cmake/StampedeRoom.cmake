@@ -60,7 +60,7 @@ function(stampede_precompile name)
   target_precompile_headers(${name} PRIVATE ${stampede_common_headers})
 endfunction()
 set(stampede_inner_loops $<$<CONFIG:Release>:-O3>
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # false alarms about Eigen's vectors
+  $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized>)  # false alarms about Eigen's vectors
 stampede_precompile(stampede_precompiled)
 stampede_precompile(stampede_precompiled_inner ${stampede_inner_loops})
 

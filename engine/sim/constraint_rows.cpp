@@ -49,6 +49,15 @@ void ConstraintRows::add_free_side(SolverRow& row, const Mover& mover, const Vec
   }
 }
 
+// What a dof adds, by what it does to the link at unit speed.
+template <typename Share>
+void ConstraintRows::add_tree_side(SolverRow& row, const Mover& mover, int link, const Vector3& point, Share share) {
+  double* jacobian = tree_side(row, mover);
+  mover.tree->jacobian(
+      link, point, [&](int dof, const Vector3& speed, const Vector3& spin) { jacobian[dof] += share(speed, spin); });
+  respond(*mover.tree, jacobian);
+}
+
 void ConstraintRows::add_point(SolverRow& row, const MoverLink& node, const Vector3& point, const Vector3& direction) {
   if (node.mover < 0) return;
   const Mover& mover = movers_[node.mover];
@@ -57,10 +66,8 @@ void ConstraintRows::add_point(SolverRow& row, const MoverLink& node, const Vect
     add_free_side(row, mover, direction, arm.cross(direction));
     return;
   }
-  double* jacobian = tree_side(row, mover);
-  mover.tree->jacobian(node.link, point,
-                       [&](int dof, const Vector3& linear, const Vector3&) { jacobian[dof] += linear.dot(direction); });
-  respond(*mover.tree, jacobian);
+  add_tree_side(row, mover, node.link, point,
+                [&](const Vector3& speed, const Vector3&) { return speed.dot(direction); });
 }
 
 void ConstraintRows::add_turn(SolverRow& row, const MoverLink& node, const Vector3& direction) {
@@ -70,10 +77,8 @@ void ConstraintRows::add_turn(SolverRow& row, const MoverLink& node, const Vecto
     add_free_side(row, mover, Vector3::Zero(), direction);
     return;
   }
-  double* jacobian = tree_side(row, mover);
-  mover.tree->jacobian(node.link, Vector3::Zero(),
-                       [&](int dof, const Vector3&, const Vector3& spin) { jacobian[dof] += spin.dot(direction); });
-  respond(*mover.tree, jacobian);
+  add_tree_side(row, mover, node.link, Vector3::Zero(),
+                [&](const Vector3&, const Vector3& spin) { return spin.dot(direction); });
 }
 
 void ConstraintRows::add_screw(SolverRow& row, const MoverLink& node, const Vector3& point, const Vector3& linear,
@@ -85,11 +90,8 @@ void ConstraintRows::add_screw(SolverRow& row, const MoverLink& node, const Vect
     add_free_side(row, mover, linear, arm.cross(linear) + angular);
     return;
   }
-  double* jacobian = tree_side(row, mover);
-  mover.tree->jacobian(node.link, point, [&](int dof, const Vector3& speed, const Vector3& spin) {
-    jacobian[dof] += speed.dot(linear) + spin.dot(angular);
-  });
-  respond(*mover.tree, jacobian);
+  add_tree_side(row, mover, node.link, point,
+                [&](const Vector3& speed, const Vector3& spin) { return speed.dot(linear) + spin.dot(angular); });
 }
 
 void ConstraintRows::end(SolverRow& row, double target) {
@@ -105,15 +107,7 @@ void ConstraintRows::end(SolverRow& row, double target) {
 }
 
 void ConstraintRows::scale(std::vector<SolverRow>& rows) {
-  for (SolverRow& row : rows) {
-    Quad* jacobian = &numbers_[static_cast<std::size_t>(row.numbers)];
-    for (const int quads : row.quads) {
-      for (int k = 0; k < quads; ++k)
-        for (double& number : jacobian[k].v) number *= row.response_inverse;
-      jacobian += 2 * quads;
-    }
-    row.target *= row.response_inverse;
-  }
+  for (SolverRow& row : rows) over_response(numbers_.data(), row);
 }
 
 }  // namespace stampede

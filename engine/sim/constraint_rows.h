@@ -47,6 +47,8 @@ class ConstraintRows {
 
  private:
   double* tree_side(SolverRow& row, const Mover& mover);
+  template <typename Share>
+  void add_tree_side(SolverRow& row, const Mover& mover, int link, const Vector3& point, Share share);
   void add_free_side(SolverRow& row, const Mover& mover, const Vector3& linear, const Vector3& angular);
 
   const Movers& movers_;

@@ -43,6 +43,7 @@ double solve_rows_plain(const SolverIsland& island, bool forwards);
 SolveRows solve_rows_avx2();     // null where the processor has none
 SolveRows fastest_solve_rows();  // that may be used, see may_use_avx2
 
+void over_response(Quad* numbers, SolverRow& row);  // makes a row that is complete ready for the loop
 // What an impulse does to the velocities.
 void push(const Quad* numbers, Quad* velocities, const SolverRow& row, double impulse);
 double speed(const Quad* numbers, const Quad* velocities, const SolverRow& row);

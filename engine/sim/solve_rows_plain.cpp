@@ -12,6 +12,16 @@ SolveRows fastest_solve_rows() {
   return may_use_avx2() && solve_rows_avx2() != nullptr ? solve_rows_avx2() : solve_rows_plain;
 }
 
+void over_response(Quad* numbers, SolverRow& row) {
+  Quad* jacobian = numbers + row.numbers;
+  for (const int quads : row.quads) {
+    for (int k = 0; k < quads; ++k)
+      for (double& number : jacobian[k].v) number *= row.response_inverse;
+    jacobian += 2 * quads;
+  }
+  row.target *= row.response_inverse;
+}
+
 void push(const Quad* numbers, Quad* velocities, const SolverRow& row, double impulse) {
   plain_rows::push_by(numbers, velocities, row, impulse);
 }

@@ -105,9 +105,7 @@ int on_panic(lua_State*) { throw Error({}, "the script uses too much memory"); }
 bool out_of_time(Sandbox::Impl& impl) {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
-  if (impl.tick == now.tv_nsec) return false;
-  const bool first = std::exchange(impl.tick, now.tv_nsec) < 0;
-  if (first) return false;
+  if (const long last = std::exchange(impl.tick, now.tv_nsec); last < 0 || last == now.tv_nsec) return false;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   const double seconds = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
   if (!impl.started_s) impl.started_s = seconds;

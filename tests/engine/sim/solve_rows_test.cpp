@@ -51,13 +51,8 @@ struct Rows {
           numbers.push_back(quad);
         }
     row.response_inverse = 1 / row.response;
-    row.target = random.between(-0.1, 0.1) * row.response_inverse;
-    auto jacobian = numbers.begin() + row.numbers;  // from here on over the response, as the target is
-    for (const int quads : row.quads) {
-      for (int k = 0; k < quads; ++k)
-        for (double& number : jacobian[k].v) number *= row.response_inverse;
-      jacobian += 2 * quads;
-    }
+    row.target = random.between(-0.1, 0.1);
+    over_response(numbers.data(), row);
     row.lower = -1;
     row.upper = 1;
     to.push_back(row);
