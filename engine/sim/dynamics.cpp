@@ -37,7 +37,7 @@ Dynamics::Dynamics(ContactFinder& finder, const Vector3& gravity, double dt)
       gravity_(gravity),
       dt_(dt),
       sleep_(finder.world, movers_, dt),
-      encounters_(finder.world, movers_, gravity, dt),
+      encounters_(finder, movers_, gravity, dt),
       islands_(finder.world, movers_),
       solver_(movers_, speeds_, gravity, dt) {}
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/base/error.h"
 #include "engine/sim/bullet_convert.h"
@@ -14,29 +15,30 @@ namespace {
 
 constexpr double kHullMargin = 0.001;    // m
 constexpr double kBoxMargin = 0.0015;    // m, at most
-constexpr double kRoom = 0.001;          // m, around the boxes around shapes
 constexpr double kMarginOfInside = 0.2;  // of the greatest ball inside: thin hulls keep their shape
 constexpr double kNoRotation = 1e-12;
 
-// Bullet forgets where two children of compounds touch as soon as the boxes around them, along the axes, do not: a
-// steady grasp would lose all its points when it comes to lie along an axis with a hair's breadth between pad and
-// thing.
 template <typename S>
 struct Roomy final : S {
-  using S::S;
+  template <typename... Arguments>
+  explicit Roomy(const double& room, Arguments&&... arguments)
+      : S(std::forward<Arguments>(arguments)...), room_(room) {}
   void getAabb(const btTransform& pose, btVector3& lower, btVector3& upper) const override {
     S::getAabb(pose, lower, upper);
-    const btVector3 room(kRoom, kRoom, kRoom);
+    const btVector3 room(room_, room_, room_);
     lower -= room;
     upper += room;
   }
+
+ private:
+  const double& room_;  // the store's
 };
 
 template <typename S, typename... Arguments>
 S* keep(ShapeStore& store, Arguments&&... arguments) {
   auto shape = std::make_unique<S>(std::forward<Arguments>(arguments)...);
   S* result = shape.get();
-  store.push_back(std::move(shape));
+  store.shapes.push_back(std::move(shape));
   return result;
 }
 
@@ -48,7 +50,7 @@ btCollisionShape* make_hull(const std::vector<Vector3>& points, const Transform&
   btConvexHullComputer computer;
   const btScalar shrunk =
       computer.compute(&moved[0].x(), sizeof(btVector3), static_cast<int>(moved.size()), kHullMargin, kMarginOfInside);
-  auto* hull = keep<Roomy<btConvexHullShape>>(store);
+  auto* hull = keep<Roomy<btConvexHullShape>>(store, store.room);
   if (shrunk < 0 || computer.vertices.size() < 4) {  // flat: Bullet's hull code cannot shrink it
     for (const btVector3& point : moved) hull->addPoint(point, false);
     hull->setMargin(1e-4);
@@ -65,7 +67,7 @@ btCollisionShape* make_cone(const Shape& shape, ShapeStore& store, Transform& li
   const double margin = std::min(kHullMargin, 0.1 * std::min(shape.radius, shape.length));
   const double sine = shape.radius / std::hypot(shape.radius, shape.length);
   const double length = shape.length - margin - margin / sine;
-  auto* cone = keep<Roomy<btConeShapeZ>>(store, shape.radius * length / shape.length, length);
+  auto* cone = keep<Roomy<btConeShapeZ>>(store, store.room, shape.radius * length / shape.length, length);
   cone->setMargin(margin);
   link_from_shape = link_from_shape * translation(0, 0, -shape.length / 2 + margin + length / 2);
   return cone;
@@ -74,7 +76,7 @@ btCollisionShape* make_cone(const Shape& shape, ShapeStore& store, Transform& li
 // Bullet rounds a box's edges by a tenth of its least half size, where it has no better way than GJK: a handle would be
 // a millimetre inside the back of a hand before they touch.
 btCollisionShape* make_box(const Shape& shape, ShapeStore& store) {
-  auto* box = keep<Roomy<btBoxShape>>(store, to_bullet(Vector3(shape.size / 2)));
+  auto* box = keep<Roomy<btBoxShape>>(store, store.room, to_bullet(Vector3(shape.size / 2)));
   box->setMargin(std::min(box->getMargin(), btScalar(kBoxMargin)));
   return box;
 }
@@ -85,11 +87,11 @@ btCollisionShape* make_shape(const Shape& shape, ShapeStore& store, Transform& l
     case ShapeKind::box:
       return make_box(shape, store);
     case ShapeKind::sphere:
-      return keep<Roomy<btSphereShape>>(store, shape.radius);
+      return keep<Roomy<btSphereShape>>(store, store.room, shape.radius);
     case ShapeKind::cylinder:
-      return keep<Roomy<btCylinderShapeZ>>(store, btVector3(shape.radius, shape.radius, shape.length / 2));
+      return keep<Roomy<btCylinderShapeZ>>(store, store.room, btVector3(shape.radius, shape.radius, shape.length / 2));
     case ShapeKind::capsule:
-      return keep<Roomy<btCapsuleShapeZ>>(store, shape.radius, shape.length);
+      return keep<Roomy<btCapsuleShapeZ>>(store, store.room, shape.radius, shape.length);
     case ShapeKind::cone:
       return make_cone(shape, store, link_from_shape);
     case ShapeKind::hull:
@@ -125,6 +127,30 @@ btCollisionShape* make_part_shape(const Part& part, const Transform& link_from_p
   auto* compound = keep<btCompoundShape>(store, shapes.size() > 4, static_cast<int>(shapes.size()));
   for (const auto& [shape, link_from_shape] : shapes) compound->addChildShape(to_bullet(link_from_shape), shape);
   return compound;
+}
+
+double least_thickness(const btCollisionShape& shape) {
+  switch (shape.getShapeType()) {
+    case COMPOUND_SHAPE_PROXYTYPE: {
+      const auto& compound = static_cast<const btCompoundShape&>(shape);
+      double least = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < compound.getNumChildShapes(); ++i)
+        least = std::min(least, least_thickness(*compound.getChildShape(i)));
+      return least;
+    }
+    case BOX_SHAPE_PROXYTYPE:
+      return 2 * from_bullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin()).minCoeff();
+    case CYLINDER_SHAPE_PROXYTYPE:
+      return 2 * from_bullet(static_cast<const btCylinderShape&>(shape).getHalfExtentsWithMargin()).minCoeff();
+    case SPHERE_SHAPE_PROXYTYPE:
+      return 2 * static_cast<const btSphereShape&>(shape).getRadius();
+    case CAPSULE_SHAPE_PROXYTYPE:
+      return 2 * static_cast<const btCapsuleShape&>(shape).getRadius();
+    case EMPTY_SHAPE_PROXYTYPE:
+      return std::numeric_limits<double>::infinity();
+    default:
+      return static_cast<const btConvexShape&>(shape).getMargin() / (kMarginOfInside / 2);
+  }
 }
 
 }  // namespace stampede

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kGravity = 9.81;
 constexpr double kFall_s = 12;   // at most
-constexpr double kDeep = 0.007;  // m: what lands on a tip is so deep in the table before it is lifted out
+constexpr double kDeep = 0.0045;  // m: what lands on a tip is so deep in the table before it is lifted out
 
 double of_spring(const Joint& joint, double q) {
   const double way = std::abs(q - joint.spring_target);

@@ -78,3 +78,29 @@ TEST_CASE("what is thin or sharp and comes down tilted lands without sinking in 
       CHECK(world.linear_velocity({body, 0}).norm() < 1e-3);
     }
 }
+
+TEST_CASE("what is thin and falls on something thin stays above it, however fast and turned it comes", "[sim]") {
+  Random random(RandomKey("thin on thin"));
+  std::vector<Shape> comb = {box_shape({0.085, 0.014, 0.016}, {-0.0375, 0, 0})};
+  for (const double y : {-0.009, -0.003, 0.003, 0.009})
+    comb.push_back(box_shape({0.08, 0.003, 0.004}, {0.045, y, -0.006}));
+  for (int i = 0; i < 12; ++i) {
+    Scene scene = table_scene(0);
+    Body sheet = falling("sheet", {box_shape({0.3, 0.3, 0.004})}, translation(0.55, 0, 0.002));
+    sheet.free = false;
+    add_body(scene, sheet);
+    const double height = 0.05 + 0.05 * i;
+    const double lean = i < 6 ? 0 : 0.3;
+    add_body(scene, falling("comb", comb,
+                            translation(0.55, 0, height) *
+                                rotation_rpy(random.between(-lean, lean), random.between(-lean, lean), i)));
+    World world(shared(scene));
+    INFO("from " << height << " m");
+    CHECK(deepest_of(world, 2) < (height < 0.45 ? kMost_m : 0.002));  // its far end comes down with 6 m/s then
+    const PartRef comb_base{body_index(world, "comb"), 0};
+    CHECK(world.linear_velocity(comb_base).norm() < 1e-3);
+    double held_up = 0;
+    for (const Contact& contact : world.contacts()) held_up += std::abs(contact.force.z());
+    CHECK(held_up == Approx(0.2 * 9.81).margin(0.02));
+  }
+}
