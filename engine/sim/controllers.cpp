@@ -23,12 +23,13 @@ constexpr double kPressSpeed = 0.35;    // m/s
 constexpr double kDefaultEffort = 100;  // N m or N, where a robot states none
 // What an arm gives against contact, measured at its tip, and beside it the weight of what it holds; a wrist's short
 // lever needs some torque of its own.
-constexpr double kPress = 35;              // N
-constexpr double kLeastTorque = 6;         // N m
-constexpr double kLoadRate = 14;           // m/s^2: gravity and what carrying adds
-constexpr double kShortLever = 2;          // N m, of an arm that an agent steers, however short its lever
-constexpr double kRubbing = 0.15;          // N along a surface, per N on it
-constexpr double kCatchUp = 0.3;           // share of a joint's acceleration for getting back to its reference
+constexpr double kPress = 35;         // N
+constexpr double kLeastTorque = 6;    // N m
+constexpr double kLoadRate = 14;      // m/s^2: gravity and what carrying adds
+constexpr double kShortLever = 2;     // N m, however short the lever of a contact
+constexpr double kPlannedPress = 50;  // N on a contact, of an arm that follows a plan: one that an agent steers, kPress
+constexpr double kRubbing = 0.15;     // N along a surface, per N on it
+constexpr double kCatchUp = 0.3;      // share of a joint's acceleration for getting back to its reference
 constexpr double kCatchUpTouching = 0.05;  // likewise, while something bears on an arm that an agent steers
 constexpr double kBrakedToolSpeed = 1.65;  // m/s: faster than it is led (kToolSpeed)
 constexpr double kSlip = 0.25;             // share of a joint's speed
@@ -133,8 +134,10 @@ void RobotControl::control_position(const JointState& now, const JointState& nex
   const bool moving = reference.trajectory != nullptr || reference.servo;
   const JointVector q = position(), v = velocity();
   const auto jacobian = arm_.jacobian(q);
-  const double press = kPress + kLoadRate * load_mass();
-  const std::vector<double> levers = reference.servo ? contact_levers() : std::vector<double>{};
+  const double load = kLoadRate * load_mass();  // N
+  const std::vector<double> levers = contact_levers();
+  const double on_contact = reference.servo ? kPress : kPlannedPress;
+  const bool careful = reference.servo && !levers.empty();
   for (std::size_t j = 0; j < arm_motors_.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     const JointLimits& limits = robot_.limits[j];
@@ -145,13 +148,15 @@ void RobotControl::control_position(const JointState& now, const JointState& nex
     // A reference that brakes does not press on.
     const double most_own = std::max({0.0, now.acceleration[i], next.acceleration[i]});
     const double least_own = std::min({0.0, now.acceleration[i], next.acceleration[i]});
-    const double back = most * (levers.empty() ? kCatchUp : kCatchUpTouching);
+    const double back = most * (careful ? kCatchUpTouching : kCatchUp);
     const double wanted = std::clamp(steady + catching_up(error, back), -fastest, fastest);
     motor.velocity = std::clamp(wanted, v[i] + dt_ * (least_own - back), v[i] + dt_ * (most_own + back));
     motor.most_force = effort_of(limits);
-    motor.against_contact = std::max(kLeastTorque, press * jacobian.col(i).head<3>().norm());
+    const double reach = jacobian.col(i).head<3>().norm();
+    motor.against_contact = std::max(kLeastTorque, (kPress + load) * reach);
     if (!levers.empty())
-      motor.against_contact = std::min(motor.against_contact, std::max(kShortLever, kPress * levers[j]));
+      motor.against_contact =
+          std::min(motor.against_contact, load * reach + std::max(kShortLever, on_contact * levers[j]));
     if (reference.servo && motor.saturated && std::abs(error) > 1e-3)
       acted_.note(std::abs(motor.force) > 0.999 * motor.most_force ? Limit::torque : Limit::contact);
   }

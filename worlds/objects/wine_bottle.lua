@@ -6,7 +6,7 @@ for k = 0, 11 do -- from the side, level or a little from above, around the uppe
       local yaw = k * math.pi / 6
       grasps[#grasps + 1] = {
         at = { 0, 0, 0.140 }, rpy = { math.pi, -side * (math.pi / 2 - deg(down)), side > 0 and yaw or yaw + math.pi },
-        width = 0.056, approach = 0.09, force = 70,
+        width = 0.056, approach = 0.09, force = 50,
       }
     end
   end
