@@ -17,7 +17,7 @@ constexpr double kLost_s = 0.1;              // a grasp may flicker for this lon
 constexpr double kGrasped_s = 0.1;           // and must be steady for this long
 constexpr double kRest_s = 0.025;            // and must stay so: it may swing
 constexpr double kRest_rad_s = 0.01;         // slower joints are at rest: below 1 cm/s at the tip
-constexpr double kYieldingStiffness = 1500;  // N/m: 1 cm off its way, the arm presses with 15 N
+constexpr double kYieldingStiffness = 3000;  // N/m: 1 cm off its way, the arm presses with 30 N
 
 MotionResult failed(Reason reason) { return {MotionStatus::failed, reason}; }
 

@@ -22,8 +22,8 @@ return object {
   },
   regions = { -- from 5 mm behind the bottom of a port to 1 cm in front of it
     left_port = { at = { x - 0.0025, -apart / 2, port }, rpy = { 0, -math.pi / 2, 0 }, size = { 0.02, 0.03, depth + 0.015 },
-      traits = { "slot" }, numbers = { gap = 0.006, deep = 0.009, askew = deg(9), search = 0.003 } },
+      traits = { "slot" }, numbers = { gap = 0.0075, deep = 0.009, askew = deg(9), search = 0.003 } },
     right_port = { at = { x - 0.0025, apart / 2, port }, rpy = { 0, -math.pi / 2, 0 }, size = { 0.02, 0.03, depth + 0.015 },
-      traits = { "slot" }, numbers = { gap = 0.006, deep = 0.009, askew = deg(9), search = 0.003 } },
+      traits = { "slot" }, numbers = { gap = 0.0075, deep = 0.009, askew = deg(9), search = 0.003 } },
   },
 }
