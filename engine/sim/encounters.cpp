@@ -19,10 +19,10 @@ constexpr double kFar_m = 5e-4;              // within a step: less is slow
 constexpr double kInto_m = 2e-4;             // less deep in each other they are not looked at again
 constexpr double kTouching_m = kInto_m / 4;  // held up not quite: Bullet does not tell of boxes that are just apart
 constexpr double kStill = 1;                 // times the speed of rest
-constexpr int kLooks = 10;
-constexpr int kSweeps = 40;
-constexpr double kOnItsSide = 0.8;  // of the way into each other at which the far side of both is as near
-constexpr int kParts = 16;          // of a step, at most
+constexpr int kLooks = 10;                   // at most
+constexpr int kSweeps = 40;                  // over the points that hold them up
+constexpr double kOnItsSide = 0.8;           // of the way into each other at which the far side of both is as near
+constexpr int kParts = 16;                   // of a step, at most
 
 // Of the ball about the origin of an object that holds all of it, m.
 double radius_of(const btCollisionObject& object) {
@@ -94,8 +94,9 @@ class Encounters::Meeting {
 
  private:
   struct Known {
-    btPersistentManifold* manifold = nullptr;
+    btPersistentManifold* manifold = nullptr;  // told apart by it
     btManifoldPoint point;
+    std::array<const btCollisionObject*, 2> of;
     bool before = false;  // Bullet's own
   };
   std::vector<btPersistentManifold*> manifolds() const;
@@ -137,13 +138,13 @@ std::vector<btPersistentManifold*> Encounters::Meeting::manifolds() const {
   return own;
 }
 
-// Bullet's points, where they will be, as they are now; of two in one place the later one. (Bullet itself would take
-// all within its margin for one, and forgets what is further apart.)
+// Notes the points that Bullet has found; of two in one place the later one counts. (With so wide a margin Bullet
+// itself would take all of a small thing's for one.)
 bool Encounters::Meeting::learn(bool before) {
   const std::size_t known_before = known_.size();
   for (btPersistentManifold* manifold : manifolds())
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
-      Known now{manifold, manifold->getContactPoint(p), before};
+      Known now{manifold, manifold->getContactPoint(p), {manifold->getBody0(), manifold->getBody1()}, before};
       const auto same = std::ranges::find_if(known_, [&](const Known& known) {
         return known.manifold == manifold && (known.point.m_localPointA - now.point.m_localPointA).length() < usual_;
       });
@@ -165,7 +166,7 @@ void Encounters::Meeting::hold_up(Side& one, Side& other) const {
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (std::size_t i = 0; i < known_.size(); ++i) {
       const btManifoldPoint& point = known_[i].point;
-      const double side = known_[i].manifold->getBody0() == one.object ? 1 : -1;
+      const double side = known_[i].of[0] == one.object ? 1 : -1;
       const Vector3 normal = side * from_bullet(point.m_normalWorldOnB);  // towards `one`
       const Vector3 at = from_bullet(point.m_positionWorldOnB);
       const Vector3 speed = one.velocity_at(at) - other.velocity_at(at);
@@ -220,8 +221,8 @@ bool Encounters::Meeting::look(Side one, Side other) {
   finder_.shapes.room = ShapeStore::kRoom;
   for (Known& known : known_) {
     btManifoldPoint& point = known.point;
-    point.m_positionWorldOnA = known.manifold->getBody0()->getWorldTransform()(point.m_localPointA);
-    point.m_positionWorldOnB = known.manifold->getBody1()->getWorldTransform()(point.m_localPointB);
+    point.m_positionWorldOnA = known.of[0]->getWorldTransform()(point.m_localPointA);
+    point.m_positionWorldOnB = known.of[1]->getWorldTransform()(point.m_localPointB);
     point.m_distance1 = (point.m_positionWorldOnA - point.m_positionWorldOnB).dot(point.m_normalWorldOnB);
   }
   return deeper && learned;

@@ -171,21 +171,21 @@ std::string hash_of_all(const ResearchProblem& problem) {
 
 std::map<std::string, std::string> known_hashes() {
   return {
-      {"abstractions", "883325d40d8336b559597c9a4e3a15c7"},
-      {"inventions", "0afeac7b7a2545e66faa7dbb41d0e3be"},
-      {"symbols", "41712df6764193ffdfe688a945d18deb"},
-      {"concepts", "f9406fb2d1bde78a4cfdf6bd11c2ef0e"},
-      {"segments_supervised", "f27383f36e0107fe7214ea1bbef4eca2"},
-      {"segments", "93b76a3106f057d21ecaeae2b24628ef"},
-      {"conditions_supervised", "f130e4ff2181a3fc036f7b40eea47057"},
-      {"conditions", "e0223b782ceebb80b0f47051fef7410d"},
-      {"segments_and_conditions", "814ec0bab05b3cadb7b771787971439a"},
-      {"motions", "184ef01afa04bdfee37d018a6043315d"},
-      {"behaviour", "46393c38b2d734ccb480399488708782"},
-      {"controllers", "c142f6f748ffa14bb192946a49358ab2"},
-      {"transfer", "cc0097df9ceea9ce9a9076f538ace27c"},
-      {"rewards", "c46385d5a6f998b2f8065e5f496b60e7"},
-      {"transition_models", "5302348d482fc1a550ccefa4db0b7e32"},
+      {"abstractions", "b6b9eac26236cb275ab66716f258597e"},
+      {"inventions", "be9d47c79b211f885b1bd3165e3bb367"},
+      {"symbols", "13f60d766dfdb632e4ab2a04c56042cf"},
+      {"concepts", "9c5af0dc332f666629058b96fa3a3dc7"},
+      {"segments_supervised", "a10d297e154d2a0a473d99dd598c1fad"},
+      {"segments", "da49b5fad4909b8181a67a8c7fa4fea7"},
+      {"conditions_supervised", "914f0eab71b7f9f7eff2579444f06aed"},
+      {"conditions", "f0323b648fc93831e96b7a71436872f1"},
+      {"segments_and_conditions", "d808000960ef3f613f63147400586be8"},
+      {"motions", "88ebe1661553a530dcc2d9603c2c0791"},
+      {"behaviour", "6b1572a1fe4bdd7e0e6be45cf766adaa"},
+      {"controllers", "b5616b28435f44233cc36a85c6d29cc8"},
+      {"transfer", "605d8d8bb33e0f4b62531195e7a9a516"},
+      {"rewards", "c609a46623486d92abbb68ddaa7b7cfe"},
+      {"transition_models", "d4e43f2b18b008f3f853fee381b6d662"},
   };
 }
 

@@ -54,7 +54,7 @@ def test_a_model_of_skills_is_evaluated_as_it_would_act_in_its_environment():
         while "is_success" not in info:
             _, _, _, _, info = env.step(np.flatnonzero(env.action_masks())[0])
         assert row.succeeded == info["is_success"] == succeeds
-        assert row.mean_length_s == pytest.approx(info["time_s"], abs=0.11)  # to a few frames
+        assert row.mean_length_s == pytest.approx(info["time_s"], abs=0.16)  # to a few frames
 
 
 def test_a_model_of_parts_of_skills_is_not_evaluated():
