@@ -332,7 +332,11 @@ Reason StreamDraws::place(const ContinuousInfo& info, ContinuousValue& value) {
 std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context) {
   std::vector<std::string> names;
   if (rollout.keep) {
-    names = context.arguments;
+    const bool asked_for = std::ranges::any_of(context.arguments, [&](const std::string& name) {
+      const Object* thing = rollout.view().scene().object(name);
+      return thing != nullptr && rollout.view().scene().body_index(thing->body) == rollout.keep->body;
+    });
+    if (asked_for) names = context.arguments;
   } else {
     for (const ContinuousInfo& info : context.info->continuous)
       if (info.source == ContinuousInfo::Source::grasps) names.push_back(argument(context, info.object));

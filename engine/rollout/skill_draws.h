@@ -24,7 +24,8 @@ struct DrawnParameters {
 DrawnParameters draw_continuous(Rollout& rollout, Symbols& symbols, SkillLibrary& skills, const SkillContext& context,
                                 Impasse* impasse = nullptr);
 
-// What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments.
+// What may be touched near the targets: by the empty hand only what it is to grasp, by a held object all arguments,
+// where it is one of them: what the hand holds by mistake would be pressed into what another is to be put on.
 std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context);
 
 // How many grasps and places are told apart; a random call takes any of them.
