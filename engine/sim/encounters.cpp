@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "engine/sim/bullet_convert.h"
@@ -98,9 +99,10 @@ class Encounters::Meeting {
     btManifoldPoint point;
     std::array<const btCollisionObject*, 2> of;
     bool before = false;  // Bullet's own
+    double borne = 0;     // N s, when they were held up last
   };
   std::vector<btPersistentManifold*> manifolds() const;
-  void hold_up(Side& one, Side& other) const;
+  void hold_up(Side& one, Side& other);
   double go_on(const Side& one, const Side& other, double duration);
   bool learn(bool before);  // whether there are more
 
@@ -151,13 +153,13 @@ bool Encounters::Meeting::learn(bool before) {
       if (same == known_.end())
         known_.push_back(now);
       else if (!same->before)
-        *same = now;
+        same->point = now.point;
     }
   return known_.size() > known_before;
 }
 
 // Takes from the speeds what the points between the two do not let happen.
-void Encounters::Meeting::hold_up(Side& one, Side& other) const {
+void Encounters::Meeting::hold_up(Side& one, Side& other) {
   struct Impulse {
     double normal = 0;
     Vector3 friction = Vector3::Zero();
@@ -185,6 +187,7 @@ void Encounters::Meeting::hold_up(Side& one, Side& other) const {
       const Vector3 change = (impulse.normal - before.normal) * normal + impulse.friction - before.friction;
       one.push(at, change);
       other.push(at, -change);
+      known_[i].borne = impulse.normal;
     }
 }
 
@@ -228,14 +231,21 @@ bool Encounters::Meeting::look(Side one, Side other) {
   return deeper && learned;
 }
 
-// Gives the points to Bullet's manifolds; returns these, with the margin that they had.
+// Gives the points to Bullet's manifolds, where there are too many those that bear most; returns the manifolds, with
+// the margin that they had.
 std::vector<std::pair<btPersistentManifold*, double>> Encounters::Meeting::put_in() const {
   std::vector<std::pair<btPersistentManifold*, double>> found;
   for (btPersistentManifold* manifold : manifolds()) {
+    std::vector<const Known*> own;
+    for (const Known& known : known_)
+      if (known.manifold == manifold) own.push_back(&known);
+    if (own.size() > MANIFOLD_CACHE_SIZE) {
+      std::ranges::stable_sort(own, std::greater(), &Known::borne);
+      own.resize(MANIFOLD_CACHE_SIZE);
+    }
     manifold->clearManifold();
     manifold->setContactBreakingThreshold(margin_);
-    for (const Known& known : known_)
-      if (known.manifold == manifold) manifold->addManifoldPoint(known.point);
+    for (const Known* known : own) manifold->addManifoldPoint(known->point);
     found.emplace_back(manifold, usual_);
   }
   return found;

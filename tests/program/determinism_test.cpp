@@ -113,13 +113,13 @@ const std::vector<KnownRun>& known_runs() {
       {"bba964744d9fb3193fab83613ac40d5b", {"basketball_in_hoop", "put_groceries_in_cupboard", "--seed", "1"}},
       {"a25a005367dff9f466dac2615e871148", {"sort_blocks", "stack_cups", "--seed", "2"}},
       {"9ae5bda9508cf66404fdd7c6ce516653", {"open_washing_machine", "open_microwave", "--seed", "1"}},
-      {"54ef4fb1062f5cc01b4df73ac7000e39",
+      {"633efb8721407cdb518793af9b6d9ebd",
        {"insert_usb_in_computer", "hang_frame_on_hanger", "reach_and_drag", "slide_block_to_target"}},
       {"2e570f3f21e1ca4b87f79c5758806d8b",
        {"stack_blocks", "put_item_in_drawer", "--behaviour", "random_skills", "--skills", "8"}},
       {"8c764d23fadad6333b30aee12cc3559a",
        {"stack_blocks", "close_box", "--behaviour", "random_applicable", "--skills", "8", "--on-failure", "recover"}},
-      {"a4d322e8e038c7e2dd6f96d9e29eb08f",
+      {"525aac977a67d9c812bf7d466bc86b6c",
        {"stack_blocks", "put_shoes_in_box", "--on-failure", "recover", "--seed", "5"}},
       {"83cf191520cb4ae93d7a3a05ff415e84", {"pick_and_lift", "--set", "pick.controller=cartesian_impedance"}},
       {"b40edbe24444b762546d3222bfb7af7d", {"pick_and_lift", "--controller", "joint_impedance", "--randomise"}},
@@ -161,7 +161,7 @@ TEST_CASE("the first episode of every task is what all of them are known by") {
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(kRoot) / "tasks"))
     if (entry.path().extension() == ".lua") words.push_back(entry.path().stem());
   CHECK(say(words).code == kDone);
-  CHECK(hash_of(folder / "all.db") == "a728c6e984bf4974343918cf3c413dfa");
+  CHECK(hash_of(folder / "all.db") == "0200b543ac2ce244d5d75c3d91b2f0b5");
 }
 
 }  // namespace stampede::program

@@ -34,7 +34,7 @@ constexpr const char* kPictures =
 
 const std::vector<KnownAgent>& known_agents() {
   static const std::vector<KnownAgent> agents = {
-      {.hash = "241b8b2b747fb1c6ebf812371552c2b8",
+      {.hash = "9dd016a7b52bc27c3526bdeacb810b6c",
        .task = "pick_and_lift",
        .channels = kNumbers,
        .settings = {.reward = RewardKind::dense, .record = true, .torque_noise = 0.2},

@@ -32,3 +32,22 @@ TEST_CASE("random skills run in every kind of world, fail with reasons, and repl
   if (behaviour == Behaviour::random_applicable) CHECK(unmet == 0);
   CHECK(replay_episode(episode) == "");
 }
+
+TEST_CASE("an arm that runs any skills, possible or not, presses on nothing with much more than 80 N") {
+  double most = 0;
+  for (const std::string task : {"take_off_weighing_scales", "set_the_table", "open_fridge", "remove_cups"})
+    for (const std::int64_t seed : {503, 504, 505, 506}) {
+      RunOptions options;
+      options.seed = seed;
+      options.on_failure = OnFailure::recover;
+      options.behaviour = Behaviour::random_skills;
+      const EpisodeRecord episode = run_task(task, first_variation(task), options);
+      for (const ContactRecord& contact : episode.labels.contacts) {
+        if (contact.object_a != "panda") continue;
+        INFO(task << " " << seed << ": " << contact.part_a << " and " << contact.object_b);
+        CHECK(contact.peak_force < 110);
+        most = std::max(most, contact.peak_force);
+      }
+    }
+  CHECK(most > 20);
+}
