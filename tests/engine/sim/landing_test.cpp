@@ -79,6 +79,24 @@ TEST_CASE("what is thin or sharp and comes down tilted lands without sinking in 
     }
 }
 
+TEST_CASE("a plate that topples off its rim lies on the table where it comes down", "[sim]") {
+  Shape disc;
+  disc.kind = ShapeKind::cylinder;
+  disc.radius = 0.085;
+  disc.length = 0.012;
+  Random random(RandomKey("toppling"));
+  for (int i = 0; i < 16; ++i) {
+    Scene scene = table_scene(0);
+    const double lean = random.between(0.3, 1.3), turn = random.between(-3, 3);
+    const double height = disc.radius * std::sin(lean) + disc.length / 2 * std::cos(lean) + 0.001;
+    add_body(scene, falling("plate", {disc}, translation(0.55, 0, height) * rotation_rpy(0, lean, turn)));
+    World world(shared(scene));
+    INFO("leaning by " << lean << " rad");
+    CHECK(deepest_of(world, 2) < kMost_m);
+    CHECK(world.linear_velocity({body_index(world, "plate"), 0}).norm() < 1e-3);
+  }
+}
+
 TEST_CASE("what is thin and falls on something thin stays above it, however fast and turned it comes", "[sim]") {
   Random random(RandomKey("thin on thin"));
   std::vector<Shape> comb = {box_shape({0.085, 0.014, 0.016}, {-0.0375, 0, 0})};
