@@ -332,11 +332,7 @@ Reason StreamDraws::place(const ContinuousInfo& info, ContinuousValue& value) {
 std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& context) {
   std::vector<std::string> names;
   if (rollout.keep) {
-    const bool asked_for = std::ranges::any_of(context.arguments, [&](const std::string& name) {
-      const Object* thing = rollout.view().scene().object(name);
-      return thing != nullptr && rollout.view().scene().body_index(thing->body) == rollout.keep->body;
-    });
-    if (asked_for) names = context.arguments;
+    names = context.arguments;
   } else {
     for (const ContinuousInfo& info : context.info->continuous)
       if (info.source == ContinuousInfo::Source::grasps) names.push_back(argument(context, info.object));
@@ -355,6 +351,7 @@ std::vector<PartRef> touchable(const Rollout& rollout, const SkillContext& conte
       parts.push_back(rollout.view().part_of(name));
     }
   }
+  if (rollout.keep && std::ranges::find(parts, rollout.keep->body, &PartRef::body) == parts.end()) return {};
   return parts;
 }
 

@@ -20,10 +20,6 @@ constexpr btScalar kPressed_m = 0.001;
 
 int number_of(const btCollisionObject& object) { return object.getWorldArrayIndex(); }
 bool is_robot(const btCollisionObject& object) { return object.getUserIndex() == kRobot; }
-btCollisionObject& object_of(const btBroadphaseProxy& proxy) {
-  return *static_cast<btCollisionObject*>(proxy.m_clientObject);
-}
-
 // Between two shapes of several pieces without trees, Bullet's own list lacks all of them.
 void list_manifolds(btCollisionAlgorithm& algorithm, btManifoldArray& manifolds) {
   manifolds.resize(0);
@@ -42,6 +38,10 @@ bool same_pieces(const btManifoldPoint& one, const btManifoldPoint& other) {
 }
 
 }  // namespace
+
+btCollisionObject& object_of(const btBroadphaseProxy& proxy) {
+  return *static_cast<btCollisionObject*>(proxy.m_clientObject);
+}
 
 bool PairFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
   const btCollisionObject &one = object_of(*a), &two = object_of(*b);

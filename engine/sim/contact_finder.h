@@ -16,6 +16,9 @@ namespace stampede {
 
 constexpr int kRobot = -1;  // an object's user index is its body, the second one its part
 
+// What stands behind a proxy of Bullet's.
+btCollisionObject& object_of(const btBroadphaseProxy& proxy);
+
 // Points of contact further apart than this, m, or that slid so far, are forgotten: a fiftieth of the smaller shape, as
 // in Bullet; but those of a robot not within 2 mm, for Bullet tells of boxes only once they lie in each other, and one
 // step without any would free what a hand presses. (So far the edge of a hole would be remembered, too.)

@@ -103,8 +103,8 @@ class Encounters::Meeting {
   };
   std::vector<btPersistentManifold*> manifolds() const;
   void hold_up(Side& one, Side& other);
-  double go_on(const Side& one, const Side& other, double duration);
-  bool learn(bool before);  // whether there are more
+  void go_on(const Side& one, const Side& other, double duration);
+  bool learn(const std::vector<btPersistentManifold*>& found, bool before);  // whether there are more
 
   ContactFinder& finder_;
   btBroadphasePair& pair_;
@@ -119,13 +119,13 @@ Encounters::Meeting::Meeting(ContactFinder& finder, btBroadphasePair& pair, doub
     : finder_(finder),
       pair_(pair),
       dt_(dt),
-      objects_{static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject),
-               static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject)},
+      objects_{&object_of(*pair.m_pProxy0), &object_of(*pair.m_pProxy1)},
       usual_(contact_margin(*objects_[0], *objects_[1])),
       thick_(least_thickness(*objects_[0]->getCollisionShape()) + least_thickness(*objects_[1]->getCollisionShape())),
       margin_(usual_) {
-  deepest_ = deepest_of(manifolds());
-  learn(true);
+  const std::vector<btPersistentManifold*> found = manifolds();
+  deepest_ = deepest_of(found);
+  learn(found, true);
 }
 
 // The algorithm of two compounds does not know all of its own.
@@ -142,9 +142,9 @@ std::vector<btPersistentManifold*> Encounters::Meeting::manifolds() const {
 
 // Notes the points that Bullet has found; of two in one place the later one counts. (With so wide a margin Bullet
 // itself would take all of a small thing's for one.)
-bool Encounters::Meeting::learn(bool before) {
+bool Encounters::Meeting::learn(const std::vector<btPersistentManifold*>& found, bool before) {
   const std::size_t known_before = known_.size();
-  for (btPersistentManifold* manifold : manifolds())
+  for (btPersistentManifold* manifold : found)
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       Known now{manifold, manifold->getContactPoint(p), {manifold->getBody0(), manifold->getBody1()}, before};
       const auto same = std::ranges::find_if(known_, [&](const Known& known) {
@@ -191,8 +191,8 @@ void Encounters::Meeting::hold_up(Side& one, Side& other) {
     }
 }
 
-// Both where they will be; returns how deep they are in each other then, m.
-double Encounters::Meeting::go_on(const Side& one, const Side& other, double duration) {
+// Lets Bullet look at both where they will be.
+void Encounters::Meeting::go_on(const Side& one, const Side& other, double duration) {
   for (const Side* side : {&one, &other}) {
     if (!side->body) continue;
     Transform pose = side->now;
@@ -207,7 +207,6 @@ double Encounters::Meeting::go_on(const Side& one, const Side& other, double dur
   btManifoldResult points(&on_one, &on_other);
   pair_.m_algorithm->processCollision(&on_one, &on_other, finder_.world.getDispatchInfo(), &points);
   for (const Side* side : {&one, &other}) side->object->setWorldTransform(to_bullet(side->now));
-  return deepest_of(manifolds());
 }
 
 bool Encounters::Meeting::look(Side one, Side other) {
@@ -218,8 +217,10 @@ bool Encounters::Meeting::look(Side one, Side other) {
   finder_.shapes.room = std::max(ShapeStore::kRoom, margin_);  // else their pieces' manifolds go with what is apart
   bool deeper = false, learned = false;
   for (int part = 1; part <= parts && !deeper; ++part) {
-    deeper = go_on(one, other, part * dt_ / parts) >= deepest_ + kInto_m;
-    learned = learn(false) || learned;
+    go_on(one, other, part * dt_ / parts);
+    const std::vector<btPersistentManifold*> found = manifolds();
+    deeper = deepest_of(found) >= deepest_ + kInto_m;
+    learned = learn(found, false) || learned;
   }
   finder_.shapes.room = ShapeStore::kRoom;
   for (Known& known : known_) {
@@ -281,8 +282,7 @@ void Encounters::find() {
   };
   btBroadphasePairArray& pairs = finder_.broadphase.getOverlappingPairCache()->getOverlappingPairArray();
   for (int i = 0; i < pairs.size(); ++i) {
-    const auto& one = *static_cast<const btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
-    const auto& other = *static_cast<const btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
+    const btCollisionObject &one = object_of(*pairs[i].m_pProxy0), &other = object_of(*pairs[i].m_pProxy1);
     const MoverLink first = MoverLink::of(&one), second = MoverLink::of(&other);
     const double both = way(first) + way(second);
     if (both <= kFar_m || !pairs[i].m_algorithm || driven(first) || driven(second) || movers_.bonded(one, other))

@@ -16,6 +16,7 @@ namespace {
 constexpr double kHullMargin = 0.001;    // m
 constexpr double kBoxMargin = 0.0015;    // m, at most
 constexpr double kMarginOfInside = 0.2;  // of the greatest ball inside: thin hulls keep their shape
+constexpr double kMarginOfThickness = kMarginOfInside / 2;
 constexpr double kNoRotation = 1e-12;
 
 template <typename S>
@@ -42,6 +43,11 @@ S* keep(ShapeStore& store, Arguments&&... arguments) {
   return result;
 }
 
+template <typename S, typename... Arguments>
+Roomy<S>* keep_roomy(ShapeStore& store, Arguments&&... arguments) {
+  return keep<Roomy<S>>(store, store.room, std::forward<Arguments>(arguments)...);
+}
+
 // Bullet adds a hull's margin outside its points, so the faces are first moved inwards by as much; without this,
 // bodies that should just touch start in penetration and stacks burst.
 btCollisionShape* make_hull(const std::vector<Vector3>& points, const Transform& link_from_shape, ShapeStore& store) {
@@ -50,7 +56,7 @@ btCollisionShape* make_hull(const std::vector<Vector3>& points, const Transform&
   btConvexHullComputer computer;
   const btScalar shrunk =
       computer.compute(&moved[0].x(), sizeof(btVector3), static_cast<int>(moved.size()), kHullMargin, kMarginOfInside);
-  auto* hull = keep<Roomy<btConvexHullShape>>(store, store.room);
+  auto* hull = keep_roomy<btConvexHullShape>(store);
   if (shrunk < 0 || computer.vertices.size() < 4) {  // flat: Bullet's hull code cannot shrink it
     for (const btVector3& point : moved) hull->addPoint(point, false);
     hull->setMargin(1e-4);
@@ -64,10 +70,10 @@ btCollisionShape* make_hull(const std::vector<Vector3>& points, const Transform&
 
 // Bullet's cone wears its margin outside too: the cone inside it at that distance, and how far its centre moves.
 btCollisionShape* make_cone(const Shape& shape, ShapeStore& store, Transform& link_from_shape) {
-  const double margin = std::min(kHullMargin, 0.1 * std::min(shape.radius, shape.length));
+  const double margin = std::min(kHullMargin, kMarginOfThickness * std::min(shape.radius, shape.length));
   const double sine = shape.radius / std::hypot(shape.radius, shape.length);
   const double length = shape.length - margin - margin / sine;
-  auto* cone = keep<Roomy<btConeShapeZ>>(store, store.room, shape.radius * length / shape.length, length);
+  auto* cone = keep_roomy<btConeShapeZ>(store, shape.radius * length / shape.length, length);
   cone->setMargin(margin);
   link_from_shape = link_from_shape * translation(0, 0, -shape.length / 2 + margin + length / 2);
   return cone;
@@ -76,7 +82,7 @@ btCollisionShape* make_cone(const Shape& shape, ShapeStore& store, Transform& li
 // Bullet rounds a box's edges by a tenth of its least half size, where it has no better way than GJK: a handle would be
 // a millimetre inside the back of a hand before they touch.
 btCollisionShape* make_box(const Shape& shape, ShapeStore& store) {
-  auto* box = keep<Roomy<btBoxShape>>(store, store.room, to_bullet(Vector3(shape.size / 2)));
+  auto* box = keep_roomy<btBoxShape>(store, to_bullet(Vector3(shape.size / 2)));
   box->setMargin(std::min(box->getMargin(), btScalar(kBoxMargin)));
   return box;
 }
@@ -87,11 +93,11 @@ btCollisionShape* make_shape(const Shape& shape, ShapeStore& store, Transform& l
     case ShapeKind::box:
       return make_box(shape, store);
     case ShapeKind::sphere:
-      return keep<Roomy<btSphereShape>>(store, store.room, shape.radius);
+      return keep_roomy<btSphereShape>(store, shape.radius);
     case ShapeKind::cylinder:
-      return keep<Roomy<btCylinderShapeZ>>(store, store.room, btVector3(shape.radius, shape.radius, shape.length / 2));
+      return keep_roomy<btCylinderShapeZ>(store, btVector3(shape.radius, shape.radius, shape.length / 2));
     case ShapeKind::capsule:
-      return keep<Roomy<btCapsuleShapeZ>>(store, store.room, shape.radius, shape.length);
+      return keep_roomy<btCapsuleShapeZ>(store, shape.radius, shape.length);
     case ShapeKind::cone:
       return make_cone(shape, store, link_from_shape);
     case ShapeKind::hull:
@@ -149,7 +155,7 @@ double least_thickness(const btCollisionShape& shape) {
     case EMPTY_SHAPE_PROXYTYPE:
       return std::numeric_limits<double>::infinity();
     default:
-      return static_cast<const btConvexShape&>(shape).getMargin() / (kMarginOfInside / 2);
+      return static_cast<const btConvexShape&>(shape).getMargin() / kMarginOfThickness;
   }
 }
 

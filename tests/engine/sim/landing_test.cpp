@@ -26,6 +26,14 @@ Body falling(const std::string& name, const std::vector<Shape>& shapes, const Tr
   return body;
 }
 
+Shape disc(double radius, double thickness) {
+  Shape shape;
+  shape.kind = ShapeKind::cylinder;
+  shape.radius = radius;
+  shape.length = thickness;
+  return shape;
+}
+
 Shape solid(std::vector<Vector3> points) {
   Shape shape;
   shape.kind = ShapeKind::hull;
@@ -48,10 +56,6 @@ double deepest_of(World& world, double seconds) {
 }  // namespace
 
 TEST_CASE("what is thin or sharp and comes down tilted lands without sinking in and lies still", "[sim]") {
-  Shape disc;
-  disc.kind = ShapeKind::cylinder;
-  disc.radius = 0.09;
-  disc.length = 0.004;
   const Shape prism = solid({{0.03, 0, -0.02},
                              {-0.02, 0.025, -0.02},
                              {-0.02, -0.025, -0.02},  //
@@ -60,7 +64,7 @@ TEST_CASE("what is thin or sharp and comes down tilted lands without sinking in 
                              {-0.02, -0.025, 0.02}});
   const std::vector<std::pair<const char*, std::vector<Shape>>> things = {
       {"tile", {box_shape({0.10, 0.10, 0.004})}},
-      {"disc", {disc}},
+      {"disc", {disc(0.09, 0.004)}},
       {"prism", {prism}},
       {"cross", {box_shape({0.12, 0.01, 0.01}), box_shape({0.01, 0.12, 0.01})}}};
   Random random(RandomKey("landing"));
@@ -80,16 +84,13 @@ TEST_CASE("what is thin or sharp and comes down tilted lands without sinking in 
 }
 
 TEST_CASE("a plate that topples off its rim lies on the table where it comes down", "[sim]") {
-  Shape disc;
-  disc.kind = ShapeKind::cylinder;
-  disc.radius = 0.085;
-  disc.length = 0.012;
+  const Shape plate = disc(0.085, 0.012);
   Random random(RandomKey("toppling"));
   for (int i = 0; i < 16; ++i) {
     Scene scene = table_scene(0);
     const double lean = random.between(0.3, 1.3), turn = random.between(-3, 3);
-    const double height = disc.radius * std::sin(lean) + disc.length / 2 * std::cos(lean) + 0.001;
-    add_body(scene, falling("plate", {disc}, translation(0.55, 0, height) * rotation_rpy(0, lean, turn)));
+    const double height = plate.radius * std::sin(lean) + plate.length / 2 * std::cos(lean) + 0.001;
+    add_body(scene, falling("plate", {plate}, translation(0.55, 0, height) * rotation_rpy(0, lean, turn)));
     World world(shared(scene));
     INFO("leaning by " << lean << " rad");
     CHECK(deepest_of(world, 2) < kMost_m);
