@@ -2,19 +2,20 @@
 -- the number `gripped`. Where the arm cannot follow the whole way at once, it touches or grips it again.
 local grips = require "worlds.lib.grips"
 
--- The position past its stop at which the hand has gone 3 cm further: the way to the handle, and what the arm gives way.
-local function pressed(w, part, hand)
+-- The position past its stop at which the hand has gone `way` m further.
+local function past_stop(w, part, hand, way)
   local ahead = w:part_at(part, w:joint(part) - 0.03):times(w:pose(part):inverse()):times(hand)
   local ax, ay, az = ahead:position()
   local x, y, z = hand:position()
-  return -0.03 * 0.03 / math.sqrt((ax - x) ^ 2 + (ay - y) ^ 2 + (az - z) ^ 2)
+  return -way * 0.03 / math.sqrt((ax - x) ^ 2 + (ay - y) ^ 2 + (az - z) ^ 2)
 end
 
 local away = 0.08 -- m that the hand goes back at the end
 
 local function push(robot, part, grasp, c, pivot)
   local before = grasp.pose:along(0, 0, -0.042) -- the closed fingers do not touch the handle yet
-  local past, w = pressed(robot:view(), part, grasp.pose), robot:view()
+  local w = robot:view()
+  local past = past_stop(w, part, grasp.pose, 0.03) -- the way to the handle, and what the arm gives way
   local whole = not grasp.reach or grasp.reach <= w:number(part, "closed_at")
   robot:close_hand()
   robot:move_through({ approach = grasp.approach, goal = before, ahead = grasp.pose },
@@ -50,7 +51,9 @@ return skill {
     local pivot, gripped = w:number(p.part, "pivot"), w:number(p.part, "gripped") > 0
     local o = { speed = c.speed, most_force = 30, pivot = pivot, away = away, opening = 0.06 }
     local function shut(grasp)
-      if gripped then grips.take(robot, p.part, grasp, 0, o) else push(robot, p.part, grasp, c, pivot) end
+      -- A centimetre past its stop: it is shut as well where the hand slipped a little.
+      if gripped then grips.take(robot, p.part, grasp, past_stop(w, p.part, grasp.pose, 0.01), o)
+      else push(robot, p.part, grasp, c, pivot) end
     end
     shut(c.grasp)
     local to = gripped and 0 or w:number(p.part, "closed_at")

@@ -8,13 +8,17 @@ return skill {
   label = "take the {obj} off the {shelf}",
   verbs = { "take", "remove" },
   run = function(robot, p, c)
-    local shelf = robot:view():pose(p.shelf)
+    local w = robot:view()
+    local shelf, deep = w:pose(p.shelf), w:size(p.shelf)
     local x, y = shelf:position()
-    local out_x, out_y = shelf:along(-0.12, 0, 0):position()            -- out of the front, which is its -x
+    local far = shelf:inverse():times(w:pose(p.obj)):position() + deep / 2
+    local out_x, out_y = shelf:along(-far - 0.01, 0, 0):position()      -- its middle out of the front, the shelf's -x
+    out_x, out_y = out_x - x, out_y - y
     robot:open_hand(c.grasp.opening)
-    robot:move_through { approach = c.grasp.approach, grasp = c.grasp.pose }
+    robot:move_through {
+      { "approach", c.grasp.approach }, { "grasp", c.grasp.pose }, { "ahead", c.grasp.pose:offset(out_x, out_y, 0.02) },
+    }
     robot:close_hand(p.obj, { force = c.grasp.force })
-    robot:retreat(0.06)                                                 -- back and up, the way it came
-    robot:move_to(robot:tip():offset(out_x - x, out_y - y, 0.02))
+    robot:move_line({ out_x, out_y, 0.02 }, { keep_clear = true })
   end,
 }

@@ -117,7 +117,9 @@ std::vector<double> RobotControl::contact_levers() const {
     for (std::size_t j = 0; j < robot_.arm.size(); ++j) {
       if (!moves(j, link)) continue;
       const Vector3 way = lever(j, point);
-      levers[j] = std::min(levers[j], held == other ? way.norm() : std::abs(way.dot(along)) + kRubbing * way.norm());
+      const bool pulls =
+          held == other && std::find(robot_.pads.begin(), robot_.pads.end(), link.part) != robot_.pads.end();
+      levers[j] = std::min(levers[j], pulls ? way.norm() : std::abs(way.dot(along)) + kRubbing * way.norm());
     }
   };
   contacts_.visit([&](PartRef one, PartRef other, const Vector3& point, const Vector3& along) {

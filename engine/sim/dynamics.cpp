@@ -21,12 +21,13 @@ Matrix3 skew(const Vector3& v) {
 }
 
 // The spin after a step of torque-free rotation: one implicit step, which neither gains energy nor tumbles apart at
-// 240 Hz (Catto, Numerical Methods, GDC 2015). World axes; `turn`: principal axes in the world.
-Vector3 after_gyration(const Vector3& spin, const Vector3& moments, const Matrix3& turn, double dt) {
-  const Vector3 local = turn.transpose() * spin, momentum = moments.cwiseProduct(local);
+// 240 Hz (Catto, Numerical Methods, GDC 2015).
+Vector3 after_gyration(const FreeBody& body, double dt) {
+  const Matrix3 turn = body.principal_axes();
+  const Vector3 local = turn.transpose() * body.angular, momentum = body.moments.cwiseProduct(local);
   const Vector3 error = dt * local.cross(momentum);
-  Matrix3 slope = moments.asDiagonal();
-  slope += dt * (skew(local) * Matrix3(moments.asDiagonal()) - skew(momentum));
+  Matrix3 slope = body.moments.asDiagonal();
+  slope += dt * (skew(local) * Matrix3(body.moments.asDiagonal()) - skew(momentum));
   return turn * (local - slope.inverse() * error);
 }
 
@@ -88,12 +89,10 @@ void Dynamics::apply_forces() {
     double* speeds = speeds_.of(mover);
     if (mover.free) {
       FreeBody& body = *mover.free;
-      const Matrix3 turn = from_bullet(body.object->getWorldTransform()).linear();
-      mover.inverse_inertia = turn * body.moments.cwiseInverse().asDiagonal() * turn.transpose();
+      mover.inverse_inertia = body.inverse_inertia();
       const Vector3 linear = body.linear + dt_ * gravity_;
-      const Vector3 angular = body.angular.squaredNorm() > kSlowSpin * kSlowSpin
-                                  ? after_gyration(body.angular, body.moments, turn, dt_)
-                                  : body.angular;
+      const Vector3 angular =
+          body.angular.squaredNorm() > kSlowSpin * kSlowSpin ? after_gyration(body, dt_) : body.angular;
       for (int i = 0; i < 3; ++i) {
         speeds[i] = linear[i];
         speeds[3 + i] = angular[i];

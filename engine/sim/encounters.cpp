@@ -78,8 +78,7 @@ Encounters::Side Encounters::side_of(btCollisionObject& object) const {
   side.linear = mover.free->linear + dt_ * gravity_;
   side.angular = mover.free->angular;
   side.radius = radius_of(object);
-  const Matrix3 turn = side.now.linear();
-  side.inverse_inertia = turn * mover.free->moments.cwiseInverse().asDiagonal() * turn.transpose();
+  side.inverse_inertia = side.body->inverse_inertia();
   return side;
 }
 

@@ -32,16 +32,16 @@ constexpr double kSettled = 1e-6;     // m/s or rad/s: an iteration that changes
 constexpr double kUndecided = 0.95;
 constexpr double kBounceSpeed = 0.2;                    // m/s: nothing bounces below
 constexpr double kNearlyTooFast = 0.5;                  // share of what a brake allows: slower, it is left out
-constexpr double kSoftForce = 80, kPointForce = 10;     // N: of a pair, and of each of its points at least
+constexpr double kSoftForce = 80;                       // N, of a pair
 constexpr double kSoft_m = 0.0008, kHardness = 60'000;  // N/m
 constexpr double kSettling = 100;                       // times the speed of rest
 
-// The greatest force of one of so many points of contact with a robot, N. Its skin, pads and joints give way a little:
-// perfectly rigid, 5 kg at a decimetre a second would strike with 120 N, all in one step. So it takes some steps,
-// within a millimetre; deeper, it gets hard.
-double softened(double distance, int points) {
+// The greatest force of one point of contact with a robot, N. Its skin, pads and joints give way a little: perfectly
+// rigid, 5 kg at a decimetre a second would strike with 120 N, all in one step. So it takes some steps, within a
+// millimetre; deeper, it gets hard.
+double softened(double distance, const Touching& touching) {
   const double most = kSoftForce + kHardness * std::max(0.0, -distance - kSoft_m);
-  return std::max(most / std::max(1, points), kPointForce);
+  return most * touching.weight(-distance) / touching.weights;
 }
 
 // Two directions across a unit one.
@@ -214,8 +214,7 @@ void IslandSolver::add_contacts(const Touching& touching, double kept, const Bou
       if (approach < -kBounceSpeed) row.target -= point.m_combinedRestitution * approach;
     }
     row.lower = 0;
-    row.upper = of_robot ? dt_ * softened(distance, -distance < touching.deep_m ? touching.points : touching.deep)
-                         : bounds.impulse;
+    row.upper = of_robot ? dt_ * softened(distance, touching) : bounds.impulse;
     rows_.start(row, std::min(row.upper, kept * point.m_appliedImpulse));
     const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
     for (int i = 0; i < 2; ++i) {

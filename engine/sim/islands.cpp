@@ -15,6 +15,7 @@ namespace {
 // turning by themselves.
 constexpr double kNarrow_m = 0.008;
 constexpr double kBears_m = 1e-4;  // a point of contact that is further away bears nothing
+constexpr double kLeastWeight = 0.25;
 
 bool lie_along_a_line(const std::vector<Vector3>& points) {
   if (points.size() <= 2) return true;
@@ -28,6 +29,8 @@ bool lie_along_a_line(const std::vector<Vector3>& points) {
 }
 
 }  // namespace
+
+double Touching::weight(double depth) const { return deep_m > 0 ? std::clamp(depth / deep_m, kLeastWeight, 1.0) : 1; }
 
 int Islands::root(int mover) const {
   while (movers_[mover].island != mover) mover = movers_[mover].island;
@@ -67,15 +70,13 @@ void Islands::look_at_points() {
           points_.push_back(from_bullet(point.m_positionWorldOnB));
           depths_.push_back(-point.getDistance());
         }
-    const bool narrow = lie_along_a_line(points_);
-    const double deep_m = depths_.empty() ? 0 : std::max(0.0, *std::ranges::max_element(depths_) / 2);
-    const auto deep = std::ranges::count_if(depths_, [deep_m](double depth) { return depth >= deep_m; });
-    for (; it != end; ++it) {
-      it->points = static_cast<int>(points_.size());
-      it->deep = static_cast<int>(deep);
-      it->deep_m = deep_m;
-      it->narrow = narrow;
-    }
+    it->narrow = lie_along_a_line(points_);
+    it->deep_m = depths_.empty() ? 0 : std::max(0.0, *std::ranges::max_element(depths_) / 2);
+    it->weights = depths_.empty() ? 1 : 0;
+    for (const double depth : depths_) it->weights += it->weight(depth);
+    for (auto next = it + 1; next != end; ++next)
+      std::tie(next->deep_m, next->weights, next->narrow) = std::tie(it->deep_m, it->weights, it->narrow);
+    it = end;
   }
 }
 

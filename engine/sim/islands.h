@@ -17,10 +17,11 @@ struct Touching {
   int first = 0, second = 0;  // objects of the world
   btPersistentManifold* manifold = nullptr;
   bool on_link = false;
-  int points = 0;  // of all manifolds of these two
-  int deep = 0;    // those of them that lie in each other at least `deep_m`: half as far as the deepest
-  double deep_m = 0;
+  double deep_m = 0;   // half as far as the deepest of all points of these two lies in the other
+  double weights = 1;  // of all of them that bear
   bool narrow = true;  // all points of these two lie along a line: nothing else resists turning about it
+
+  double weight(double depth) const;  // of what the two bear together, that a point so deep has to bear
 };
 
 struct Island {

@@ -15,6 +15,13 @@ constexpr double kTrembling = 10;                      // times that
 
 }  // namespace
 
+Matrix3 FreeBody::principal_axes() const { return from_bullet(object->getWorldTransform()).linear(); }
+
+Matrix3 FreeBody::inverse_inertia() const {
+  const Matrix3 turn = principal_axes();
+  return turn * moments.cwiseInverse().asDiagonal() * turn.transpose();
+}
+
 void Mover::set_asleep(bool sleeps) {
   asleep = sleeps;
   for (btCollisionObject* object : objects)

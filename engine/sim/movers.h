@@ -17,6 +17,9 @@ struct FreeBody {
   double mass = 1;
   Vector3 moments = Vector3::Ones();
   Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();  // velocities, world, m/s and rad/s
+
+  Matrix3 principal_axes() const;   // in the world
+  Matrix3 inverse_inertia() const;  // along world axes, 1/(kg m^2)
 };
 
 // Drives a joint of a tree towards a speed and a position with a limited force: the speed aimed at is

@@ -171,21 +171,21 @@ std::string hash_of_all(const ResearchProblem& problem) {
 
 std::map<std::string, std::string> known_hashes() {
   return {
-      {"abstractions", "b6b9eac26236cb275ab66716f258597e"},
-      {"inventions", "be9d47c79b211f885b1bd3165e3bb367"},
-      {"symbols", "13f60d766dfdb632e4ab2a04c56042cf"},
-      {"concepts", "9c5af0dc332f666629058b96fa3a3dc7"},
-      {"segments_supervised", "a10d297e154d2a0a473d99dd598c1fad"},
-      {"segments", "da49b5fad4909b8181a67a8c7fa4fea7"},
-      {"conditions_supervised", "914f0eab71b7f9f7eff2579444f06aed"},
-      {"conditions", "f0323b648fc93831e96b7a71436872f1"},
-      {"segments_and_conditions", "d808000960ef3f613f63147400586be8"},
-      {"motions", "88ebe1661553a530dcc2d9603c2c0791"},
-      {"behaviour", "6b1572a1fe4bdd7e0e6be45cf766adaa"},
-      {"controllers", "b5616b28435f44233cc36a85c6d29cc8"},
-      {"transfer", "605d8d8bb33e0f4b62531195e7a9a516"},
-      {"rewards", "c609a46623486d92abbb68ddaa7b7cfe"},
-      {"transition_models", "d4e43f2b18b008f3f853fee381b6d662"},
+      {"abstractions", "6a12dff3b80f4a62f083d6b55a749295"},
+      {"inventions", "4d5fca84dd71607850ee3bbf74ad6b14"},
+      {"symbols", "c99fb549536e992c2144767df3f3af0a"},
+      {"concepts", "4b9fa9f89e582eae85f720d2657ba69a"},
+      {"segments_supervised", "fdc41a2b274ad009da83c635c68ed5dd"},
+      {"segments", "8a116cfcf8188f1c87a89b80b56a83ab"},
+      {"conditions_supervised", "aa30caf75de4434c75ba8dc03c73594a"},
+      {"conditions", "d3eef0e1ac4a0df036a1502f5a5cc56d"},
+      {"segments_and_conditions", "ccf45edda709ed51258e32d12e471b5b"},
+      {"motions", "35a18f5391d51c3bdb9220fbe1cac937"},
+      {"behaviour", "bf4cf148305769081803708d0ff27d7d"},
+      {"controllers", "ea7ce661f62933bd32ac2283a628deb1"},
+      {"transfer", "45d81a6d84ac03d74b06efcff124cdbd"},
+      {"rewards", "adb891f0539584f2265bde6c31fa2c2c"},
+      {"transition_models", "c30d51760cb86daf35ba768aa9ab9705"},
   };
 }
 

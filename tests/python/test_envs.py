@@ -423,3 +423,21 @@ def test_parameters_are_the_agents_where_set():
     env.reset(seed=3)
     with pytest.raises(_core.Error, match="not of this environment's action space"):
         env.step(0)
+
+
+def test_a_lid_is_shut_by_the_joint_positions_of_its_demo_and_nothing_is_pressed_hard(tmp_path):
+    env = Env("close_grill", action="joint_position", hidden=True, record=True, catalogue=tmp_path / "demos.db")
+    for seed in [1, 200, 209]:  # the hand slipped on the handle, or its palm pressed with 174 N
+        demo = env.session.run("close_grill", seed=seed, set=["motion.stop_at_vias=1"])
+        stored = env.session.arrays(demo, ["action/joint_position", "action/gripper"])
+        actions = np.column_stack([stored["action/joint_position"], stored["action/gripper"]])[:-1]
+        env.reset(options={"variation": demo.variation, "seed": seed})
+        for action in actions:
+            done = env.step(action.astype(env.action_space.dtype))[4]["success"]
+            if done:
+                break
+        assert done, seed
+    env.close()
+    pressed = "SELECT max(peak_force) FROM contacts WHERE object_a = 'panda' AND object_b = 'grill'"
+    _, rows = _core.CatalogueReader(tmp_path / "demos.db").query(pressed)
+    assert 20 < rows[0][0] < 100
