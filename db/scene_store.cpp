@@ -7,8 +7,10 @@
 namespace stampede {
 namespace {
 
-// Quotes inside JSON texts are escaped, so none of these can begin inside one.
-constexpr std::array<std::string_view, 4> kSharedKeys{"\"robot\":", "\"shapes\":", "\"grasps\":", "\"drawn\":"};
+// Quotes inside JSON texts are escaped, so none of these can begin inside one. None of them holds what is drawn anew
+// for each start, such as a joint's position: it would be stored whole with each.
+constexpr std::array<std::string_view, 6> kSharedKeys{
+    "\"shapes\":", "\"grasps\":", "\"drawn\":", "\"limits\":", "\"cameras\":", "\"classes\":"};
 constexpr std::string_view kMark = "{\"$asset\":\"";
 constexpr std::size_t kWorthIt = 200;  // bytes; a reference takes 46
 constexpr std::size_t kHashSize = 32;

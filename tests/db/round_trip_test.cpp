@@ -172,7 +172,7 @@ TEST_CASE("what many scenes share is stored once") {
     return std::get<std::int64_t>(catalogue.query("SELECT count(*) FROM " + table).rows[0][0]);
   };
   CHECK(count("scene") == 5);  // they differ in their seed
-  CHECK(count("asset") == 2);  // the shapes and the robot
+  CHECK(count("asset") == 1);  // the shapes
   CHECK(count("definition") == 2);
   CHECK(count("engine_run") == 1);
   CHECK(count("text_store") == 2);

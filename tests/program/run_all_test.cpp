@@ -79,6 +79,21 @@ TEST_CASE("many episodes of a session are those of `run`, and several workers wr
   CHECK(Catalogue::open(folder / "program.db").content_hash() == hashes[0]);
 }
 
+TEST_CASE("what the scenes of a task have in common is stored once, wherever their arms begin") {
+  const Folder folder;
+  const auto session = many_session(folder / "a.db");
+  RunRequest request{.tasks = {"reach_target"}};
+  const auto shared_bytes = [&](int episodes) {
+    request.episodes = episodes;
+    session->run_all(request);
+    const Catalogue catalogue = Catalogue::open(folder / "a.db");
+    CHECK(catalogue.query("SELECT 1 FROM scene WHERE length(document) > 20000").rows.empty());
+    return catalogue.query("SELECT sum(length(body)) AS bytes FROM asset").integer(0, "bytes");
+  };
+  const std::int64_t first = shared_bytes(1);
+  CHECK(shared_bytes(6) < first + 2000);  // targets of other colours
+}
+
 TEST_CASE("shards that programs make are together what one run makes") {
   const Folder folder;
   const auto whole = many_session(folder / "whole.db");
