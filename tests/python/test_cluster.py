@@ -305,6 +305,18 @@ def test_parts_of_another_run_are_refused(threads: ThreadPoolExecutor, tmp_path:
     refused("it is not there")
 
 
+def test_a_folder_with_files_of_others_is_left_as_it_is(tmp_path: Path) -> None:
+    run = {"tasks": "reach_target", "shards": 1, "executor": nobody}
+    (tmp_path / "run.json").write_text('{"name": "mine"}')
+    (tmp_path / "part-time.half.txt").write_text("mine")
+    with pytest.raises(stampede.Error, match="run.json: it is of another run"):
+        generate(**run, out=tmp_path)
+    assert files(tmp_path) == ["part-time.half.txt", "run.json"]
+    assert (tmp_path / "run.json").read_text() == '{"name": "mine"}'
+    with pytest.raises(stampede.Error, match="run.json: it is no folder"):
+        generate(**run, out=tmp_path / "run.json")
+
+
 def test_it_is_imported_when_it_is_asked_for_and_brings_nothing() -> None:
     script = """import sys, stampede
 assert "stampede.cluster" not in sys.modules and "cluster" in dir(stampede)

@@ -18,7 +18,7 @@ from PIL import Image
 
 import stampede
 from stampede.recordings import convert
-from stampede.recordings.folder import stamp_text
+from stampede.recordings.folder import FolderWriter, stamp_text
 from stampede.recordings.messages import decoder
 from stampede.recordings.pictures import packed
 from stampede.recordings.roles import camera_name, prefixes_of
@@ -99,7 +99,7 @@ def write_bag(folder: Path, form: str = "mcap", count: int = 20, **other: Any) -
 def run(source: Path, out: Path, *options: str, form: str = "mcap") -> tuple[Path, list[str]]:
     told: list[str] = []
     convert([form, str(source), "--out", str(out), *options], tell=told.append)
-    assert not list(out.parent.glob("*.part"))
+    assert not list(out.parent.glob(".stampede-*"))
     return out, told
 
 
@@ -336,6 +336,36 @@ def test_a_folder_that_is_there_stays(tmp_path: Path) -> None:
     with pytest.raises(stampede.Error, match="there is something of that name"):
         run(bag, tmp_path / "mine")
     assert not list((tmp_path / "mine").iterdir())
+
+
+@pytest.mark.parametrize("whole", [True, False])
+def test_what_lies_beside_the_new_folder_stays(tmp_path: Path, whole: bool) -> None:
+    bag = write_bag(tmp_path / "bag")
+    mine = tmp_path / "new.part" / "notes.txt"
+    mine.parent.mkdir()
+    mine.write_text("mine")
+    if whole:
+        run(bag, tmp_path / "new")
+    else:
+        with pytest.raises(stampede.Error):
+            run(bag, tmp_path / "new", "--map", "joints=/nothing")
+    assert mine.read_text() == "mine"
+    expected = {"bag", "new.part"} | ({"new"} if whole else set())
+    assert {one.name for one in tmp_path.iterdir()} == expected  # nor is anything left
+
+
+def test_a_name_that_is_taken_meanwhile_or_a_link_to_nowhere_is_not_written_over(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag")
+    (tmp_path / "link").symlink_to(tmp_path / "nowhere")
+    with pytest.raises(stampede.Error, match="there is something of that name"):
+        run(bag, tmp_path / "link")
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(stampede.Error, match="file: it is no folder"):
+        run(bag, tmp_path / "file" / "new")
+    with pytest.raises(stampede.Error, match="there is something of that name"), FolderWriter(tmp_path / "new") as new:
+        new.finish({"task": "wave"})
+        (tmp_path / "new").write_text("mine")
+    assert (tmp_path / "new").read_text() == "mine" and not (tmp_path / "nowhere").exists()
 
 
 def test_what_big_endian_machines_write() -> None:

@@ -68,7 +68,7 @@ def test_the_same_bytes_for_a_seed_and_other_ones_for_another(demos: Path, tmp_p
     for ending in (".mcap", ".truth.json"):
         first, again, other = ((tmp_path / f"{name}{ending}").read_bytes() for name in "abc")
         assert first == again and first != other
-    assert not list(tmp_path.glob("*.part"))
+    assert not list(tmp_path.glob(".stampede-*"))
 
 
 def test_others_read_it_and_find_what_the_truth_says(demos: Path, tmp_path: Path) -> None:
@@ -229,6 +229,16 @@ def test_after_an_error_nothing_is_left(tmp_path: Path) -> None:
         bag.joint_state("/joint_states", 1, 2, ["panda_joint1"], [0.5])
         raise KeyboardInterrupt
     assert not list(tmp_path.iterdir())
+
+
+def test_what_lies_beside_the_bag_stays(demos: Path, tmp_path: Path) -> None:
+    for name in ("lab.mcap.part", "lab.truth.json.part"):
+        (tmp_path / name).write_text("mine")
+    make(demos, tmp_path / "lab.mcap", "--cameras", "")
+    with pytest.raises(stampede.Error, match="there is something of that name"), McapBagWriter(tmp_path / "b.mcap"):
+        (tmp_path / "b.mcap").write_text("mine")
+    assert sum(file.is_file() and file.read_text(errors="replace") == "mine" for file in tmp_path.iterdir()) == 3
+    assert len(list(tmp_path.iterdir())) == 5
 
 
 def test_lossless_pictures_need_no_opencv(demos: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

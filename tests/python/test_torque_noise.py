@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -138,6 +139,35 @@ def test_recordings_that_cannot_serve(tmp_path: Path) -> None:
         assert caught.value.hint and not (tmp_path / "noise.json").exists()
     with pytest.raises(stampede.Error, match="no recording"):
         torque_noise.main([str(tmp_path), "--out", str(tmp_path / "noise.json")])
+
+
+def test_a_recording_reads_nothing_from_outside_of_its_folder(tmp_path: Path) -> None:
+    whole = write_recording(tmp_path / "whole", seconds=2)
+
+    def refused(words: str) -> None:
+        with pytest.raises(stampede.Error, match=words) as caught:
+            Recording(given)
+        assert str(given) in caught.value.where and caught.value.hint
+
+    given = tmp_path / "given"
+    given.mkdir()
+    (given / "recording.json").symlink_to(whole / "recording.json")
+    refused("recording.json: it leads out of")
+    (given / "recording.json").unlink()
+    os.mkfifo(given / "recording.json")
+    refused("it is no file")
+    (given / "recording.json").unlink()
+    document = json.loads((whole / "recording.json").read_text())
+    document["streams"][0]["file"] = "../whole/joints.csv"
+    (given / "recording.json").write_text(json.dumps(document))
+    refused("joints.csv: it leads out of")
+    document["streams"][0]["file"] = "joints.csv"
+    (given / "recording.json").write_text(json.dumps(document))
+    os.mkfifo(given / "joints.csv")
+    refused("joints.csv: it is no file")
+    document["robot"] = {"urdf": "../robot.urdf"}
+    (given / "recording.json").write_text(json.dumps(document))
+    refused("robot.urdf: it leads out of")
 
 
 @pytest.mark.parametrize(

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
-import tempfile
 from pathlib import Path
 from typing import Any
 
 from stampede.calibrate.bundle import Result
 from stampede.calibrate.recorded import MEASURED, Recording
 from stampede.faults import fault
+from stampede.files import inside, made_beside
 from stampede.recordings.folder import UNPLACED
 
 Json = dict[str, Any]
@@ -21,17 +20,9 @@ def write_whole(file: Path, document: Any) -> None:
     """As JSON; the file has its name once all of it is there. Raises Error where something else has that name: a link,
     a device, a folder, or a file without this document's first key."""
     check_replaceable(file, next(iter(document)))
-    handle, part = tempfile.mkstemp(prefix=".stampede-", dir=file.parent)
-    try:
-        with open(handle, "w") as stream:
-            stream.write(json.dumps(document, indent=1) + "\n")
-        mask = os.umask(0)
-        os.umask(mask)
-        Path(part).chmod(0o666 & ~mask)
-        Path(part).replace(file)
-    except BaseException:
-        Path(part).unlink(missing_ok=True)
-        raise
+    with made_beside(file) as made:
+        made.write_text(json.dumps(document, indent=1) + "\n")
+        made.replace(file)
 
 
 def check_replaceable(file: Path, key: str) -> None:
@@ -54,7 +45,7 @@ def apply(recording: Recording, result: Result, report: Json, with_joints: bool)
     """cameras.json, the cameras' clocks, calibration.json with what was found; joints.csv, if that is wanted."""
     folder = recording.folder
     name = str(recording.document.get("cameras", "cameras.json"))
-    file = folder / name
+    file = inside(folder, name)
     known = json.loads(file.read_text())["cameras"] if file.is_file() else []
     new = {entry["name"] for entry in report["camera_file"]}
     write_whole(file, {"cameras": [one for one in known if one["name"] not in new] + report["camera_file"]})
@@ -75,23 +66,23 @@ def _correct_joints(recording: Recording, result: Result) -> None:
     file = recording.folder / recording.joints_name
     measured = file.with_name(MEASURED)
     if not measured.exists():
-        part = measured.with_name(measured.name + ".part")
-        shutil.copyfile(file, part)
-        part.replace(measured)
+        with made_beside(measured) as made:
+            shutil.copyfile(file, made)
+            made.replace(measured)
     offsets = {
         f"{joint}_position_rad": float(offset)
         for joint, offset in zip(recording.robot.arm, result.offsets, strict=True)
     }
     lines = measured.read_text().splitlines()
     shifts = [offsets.get(column, 0.0) for column in lines[0].split(",")]
-    part = file.with_name(file.name + ".part")
-    with part.open("w") as stream:
-        stream.write(lines[0] + "\n")
-        for line in lines[1:]:
-            fields = line.split(",")
-            fields = [
-                repr(float(field) + shift) if shift and field else field
-                for field, shift in zip(fields, shifts, strict=True)
-            ]
-            stream.write(",".join(fields) + "\n")
-    part.replace(file)
+    with made_beside(file) as made:
+        with made.open("w") as stream:
+            stream.write(lines[0] + "\n")
+            for line in lines[1:]:
+                fields = line.split(",")
+                fields = [
+                    repr(float(field) + shift) if shift and field else field
+                    for field, shift in zip(fields, shifts, strict=True)
+                ]
+                stream.write(",".join(fields) + "\n")
+        made.replace(file)

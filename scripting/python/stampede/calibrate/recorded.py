@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stampede._core import Error
 from stampede.faults import fault, unknown
+from stampede.files import inside, plain_file
 from stampede.recordings.folder import UNPLACED
 from stampede.robots import Robot, robot_of
 
@@ -66,10 +68,16 @@ class Recording:
     def __init__(self, folder: Path, corrected: bool = False) -> None:
         self.folder = folder
         self.file = folder / "recording.json"
+        if self.file.exists():
+            _given(folder, self.file.name)
         try:
             self.document: Json = json.loads(self.file.read_text())
             self.streams: list[Json] = [*self.document["streams"], *self.unplaced()]
             described = self.document["robot"]
+            if isinstance(described, dict) and "urdf" in described:
+                _given(folder, described["urdf"])
+        except Error:
+            raise
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise fault(str(self.file), f"no recording: {error}", "python -m stampede.recordings writes one") from error
         self.robot: Robot = robot_of(described, folder)
@@ -80,7 +88,7 @@ class Recording:
             raise fault(str(self.file), "it has no stream of joints", "record joint states")
         self.joints_name = str(self._joints_stream["file"])
         measured = folder / MEASURED
-        self.joints_file = measured if measured.is_file() and not corrected else folder / self.joints_name
+        self.joints_file = _given(folder, MEASURED if measured.is_file() and not corrected else self.joints_name)
         self.zero_ns = 0
         names, stamps, values = self._table(self.joints_file)
         if len(stamps) < 2:
@@ -92,7 +100,7 @@ class Recording:
     def unplaced(self) -> list[Json]:
         """Streams that are left out as long as nobody knows where their cameras are."""
         file = self.folder / UNPLACED
-        return list(json.loads(file.read_text())["streams"]) if file.is_file() else []
+        return list(json.loads(_given(self.folder, UNPLACED).read_text())["streams"]) if file.is_file() else []
 
     def cameras(self) -> list[str]:
         return [str(one["camera"]) for one in self.streams if one.get("kind") == "rgb"]
@@ -103,21 +111,21 @@ class Recording:
         if not found:
             raise unknown(str(self.file), "camera with colours", camera, self.cameras())
         stream = found[0]
-        folder = self.folder / stream["folder"]
+        folder = inside(self.folder, stream["folder"])
         if "times" in stream:
-            _, stamps, rows = self._table(self.folder / stream["times"], texts=True)
-            files = [folder / row[0] for row in rows]
+            _, stamps, rows = self._table(_given(self.folder, stream["times"]), texts=True)
+            files = [inside(self.folder, f"{stream['folder']}/{row[0]}") for row in rows]
         else:
-            files = sorted(folder.iterdir(), key=lambda file: _stamp_ns(file.stem, str(file)))
+            files = [inside(self.folder, f"{stream['folder']}/{file.name}") for file in folder.iterdir()]
+            files = sorted(files, key=lambda file: _stamp_ns(file.stem, str(file)))
             stamps = [_stamp_ns(file.stem, str(file)) for file in files]
         return Pictures(files, self._seconds(stamps), str(stream.get("clock", "")))
 
     def lens_entry(self, camera: str) -> Json | None:
         """Of lenses.json or cameras.json beside the recording."""
         for name in ("lenses.json", str(self.document.get("cameras", "cameras.json"))):
-            file = self.folder / name
-            if file.is_file():
-                for entry in json.loads(file.read_text()).get("cameras", []):
+            if (self.folder / name).is_file():
+                for entry in json.loads(_given(self.folder, name).read_text()).get("cameras", []):
                     if entry.get("name") == camera:
                         return dict(entry)
         return None
@@ -166,6 +174,10 @@ class Recording:
             return names[1:], stamps, [[float(one) if one else np.nan for one in row[1:]] for row in rows]
         except ValueError as error:
             raise fault(str(file), str(error), "write the recording again") from error
+
+
+def _given(folder: Path, name: str) -> Path:
+    return plain_file(inside(folder, name))
 
 
 def _stamp_ns(text: str, place: str) -> int:

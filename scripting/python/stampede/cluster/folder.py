@@ -12,10 +12,12 @@ from typing import Any
 from stampede._core import Error
 from stampede.catalogue import Catalogue
 from stampede.faults import fault
+from stampede.files import make_folder, plain_file
 
 ALL_SHOWN = 8  # differences, or errors of shards, that are told in words; of more the first
 SHOWN = 200  # letters of what a file or a library says
 HALF = ".half"  # how names of parts end that are not finished; SQLite's own beside them end in -wal, -shm
+_HALVES = f"part-*-of-*.{'[0-9a-f]' * 8}{HALF}*"
 _RUN_FILE = "run.json"  # what the parts are of
 
 
@@ -43,29 +45,40 @@ def part_there(file: Path, shard: int, shards: int) -> Part:
 
 
 def claim(folder: Path, run: dict[str, Any]) -> None:
-    """Makes the folder this run's. Raises Error where parts of another one are in it."""
-    folder.mkdir(parents=True, exist_ok=True)
+    """Makes the folder this run's. Raises Error where parts of another one are in it, or a run.json of something else."""
+    make_folder(folder)
     try:
         check_run(folder, run)
         return
     except Error:
-        if any(folder.glob("part-*-of-*.db")):
+        if any(folder.glob("part-*-of-*.db")) or not _is_replaceable(folder / _RUN_FILE):
             raise
-    for half in folder.glob(f"part-*{HALF}*"):
+    for half in folder.glob(_HALVES):
         half.unlink(missing_ok=True)
     written = folder / f"{_RUN_FILE}.{uuid.uuid4().hex[:8]}"
     written.write_text(json.dumps(run, indent=1) + "\n")
     os.replace(written, folder / _RUN_FILE)
 
 
+def _is_replaceable(file: Path) -> bool:
+    if not os.path.lexists(file):
+        return True
+    try:
+        known = json.loads(plain_file(file).read_text())
+    except (Error, OSError, ValueError):
+        return False
+    return isinstance(known, dict) and {"tasks", "shards", "request"} <= known.keys()
+
+
 def check_run(folder: Path, run: dict[str, Any], cure: str = "") -> None:
     """Raises Error where the folder is not this run's."""
     file = folder / _RUN_FILE
     cure = cure or f"the same arguments and scripts go on there; others need another folder, or {folder} removed"
+    if not os.path.lexists(file):
+        raise fault(str(file), "it is not there, and says what run the parts are of", cure)
+    plain_file(file)
     try:
         there, here = _flat(json.loads(file.read_text())), _flat(run)
-    except FileNotFoundError:
-        raise fault(str(file), "it is not there, and says what run the parts are of", cure) from None
     except (ValueError, AttributeError) as error:
         raise fault(str(file), f"it is damaged ({error})", cure) from error
     differences = [
@@ -93,6 +106,6 @@ def _shown(value: Any) -> str:
 
 def tidy(folder: Path) -> None:
     """Removes what lost tries left of parts that are finished."""
-    for half in folder.glob(f"part-*{HALF}*"):
+    for half in folder.glob(_HALVES):
         if half.with_name(half.name.split(".")[0] + ".db").exists():
             half.unlink(missing_ok=True)

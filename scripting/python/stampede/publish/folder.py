@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from stampede.faults import fault
+from stampede.files import made_beside
 
 SUMS = "SHA256SUMS"
 _MARK = f"# A data set that python -m stampede.publish made: sha256sum -c {SUMS}"
@@ -43,16 +43,14 @@ def made_whole(target: Path) -> Iterator[Path]:
     """
     target = Path(os.path.abspath(target))
     _check(target)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=target.parent, prefix=f".{target.name}.half-") as beside:
-        half = Path(beside) / "new"
+    with made_beside(target) as half:
         half.mkdir()
         yield half
         sums = [f"{file.sha256}  {file.name}\n" for file in files_in(half)]
         (half / SUMS).write_text("".join([_MARK, "\n", *sums]))
         _check(target)
         if target.exists():
-            target.rename(Path(beside) / "old")
+            target.rename(half.with_name("old"))
         half.rename(target)
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
+from stampede.files import check_new, give_name, made_beside
 
 Array = NDArray[Any]
 
@@ -45,14 +48,17 @@ class McapBagWriter:
             from rosbags.typesys import Stores, get_typestore
         except ImportError as error:
             raise ImportError(f'{error.name} is missing\n    pip install "stampede-sim[recordings]"') from error
-        self._path, self._part = path, path.with_name(path.name + ".part")
+        self._path = path
+        self._held = ExitStack()
         self._library = writer
         self._types = get_typestore(Stores.ROS2_HUMBLE)
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
 
     def __enter__(self) -> McapBagWriter:
-        self._stream = self._part.open("wb")
+        check_new(self._path)
+        self._made = self._held.enter_context(made_beside(self._path))
+        self._stream = self._held.enter_context(self._made.open("wb"))
         self._writer = self._library.Writer(self._stream)
         self._writer.start(profile="ros2", library="stampede")
         return self
@@ -60,14 +66,11 @@ class McapBagWriter:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        try:
+        with self._held:
             if kind is None:
                 self._writer.finish()
                 self._stream.close()
-                self._part.rename(self._path)
-        finally:
-            self._stream.close()
-            self._part.unlink(missing_ok=True)
+                give_name(self._made, self._path)
 
     def joint_state(
         self,

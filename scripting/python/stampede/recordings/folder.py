@@ -6,6 +6,7 @@ import json
 import math
 import shutil
 from collections.abc import Iterable, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -13,6 +14,7 @@ from typing import IO, Any
 
 from stampede.faults import fault
 from stampede.file_names import FileNames
+from stampede.files import check_new, give_name, made_beside
 
 FORM = 1  # `stampede_recording` of recording.json
 UNPLACED = "unplaced.json"  # streams of cameras of which nobody knows where they are
@@ -100,7 +102,7 @@ class Stream:
 
 
 class FolderWriter:
-    """A folder that has its name once all of it is there; until then it is NAME.part.
+    """A folder that has its name once all of it is there; until then it is in a hidden one beside.
 
     with FolderWriter(path) as folder:
         joints = folder.series("joints", ["joint1_position_rad"], clock="robot")
@@ -110,29 +112,26 @@ class FolderWriter:
 
     def __init__(self, path: Path, skip_bad: bool = False) -> None:
         self.path, self._skip_bad = path, skip_bad
-        self._part = path.with_name(path.name + ".part")
-        self._files: list[IO[str]] = []
+        self._held = ExitStack()
         self.streams: list[Stream] = []
         self._unplaced: list[str] = []
         self._names = FileNames("recording.json", "labels.json", "cameras.json", "lenses.json", UNPLACED)
         self._finished = False
 
     def __enter__(self) -> FolderWriter:
-        if self.path.exists():
-            raise fault(str(self.path), "there is something of that name", "name a new folder, or remove it")
-        shutil.rmtree(self._part, ignore_errors=True)
-        self._part.mkdir(parents=True)
+        check_new(self.path)
+        self._made = self._held.enter_context(made_beside(self.path))
+        self._files = self._held.enter_context(ExitStack())
+        self._made.mkdir()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        for file in self._files:
-            file.close()
-        if kind is None and self._finished:
-            self._part.rename(self.path)
-        else:
-            shutil.rmtree(self._part, ignore_errors=True)
+        with self._held:
+            self._files.close()
+            if kind is None and self._finished:
+                give_name(self._made, self.path)
 
     def series(self, kind: str, columns: Sequence[str], clock: str, place: str = "", **fields: Any) -> Stream:
         """A stream of numbers, in a file of its name or kind."""
@@ -144,16 +143,16 @@ class FolderWriter:
     def pictures(self, kind: str, camera: str, clock: str, place: str = "", **fields: Any) -> tuple[Stream, Path]:
         """A stream of pictures, kind rgb or depth, and the folder for Stream.picture."""
         name = self._names.take(f"{camera}_{kind}")
-        folder = self._part / name
+        folder = self._made / name
         folder.mkdir()
         described = {"kind": kind, "camera": camera, "folder": name, "times": f"{name}.csv", "clock": clock, **fields}
         return self._add(self._open(f"{name}.csv", ["file"]), described, place or name), folder
 
     def write_json(self, name: str, document: Any) -> None:
-        (self._part / name).write_text(json.dumps(document, indent=1) + "\n")
+        (self._made / name).write_text(json.dumps(document, indent=1) + "\n")
 
     def copy(self, source: Path, name: str) -> None:
-        shutil.copyfile(source, self._part / name)
+        shutil.copyfile(source, self._made / name)
 
     def leave_out(self, placed: Iterable[str]) -> list[str]:
         """Cameras with pictures that are none of these; their streams go to unplaced.json, until a calibration says
@@ -175,9 +174,8 @@ class FolderWriter:
         self._finished = True
 
     def _open(self, name: str, columns: Sequence[str]) -> IO[str]:
-        file = (self._part / name).open("w", buffering=1 << 20)
+        file = self._files.enter_context((self._made / name).open("w", buffering=1 << 20))
         file.write(",".join(["time_s", *columns]) + "\n")
-        self._files.append(file)
         return file
 
     def _add(self, file: IO[str], described: Json, place: str) -> Stream:

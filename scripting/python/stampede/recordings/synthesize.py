@@ -22,6 +22,7 @@ from stampede.catalogue import Catalogue, StoredEpisode
 from stampede.export.scene import robot_base
 from stampede.export.steps import is_real, matrices
 from stampede.faults import fault, unknown
+from stampede.files import check_new, give_name, made_beside
 from stampede.recordings import sensors as sensing
 from stampede.recordings.bag_writer import McapBagWriter
 from stampede.recordings.pictures import packed
@@ -104,15 +105,13 @@ def synthesize(options: argparse.Namespace, tell: Callable[[str], None]) -> Path
         opencv()  # raises at once where it is missing
     encode = as_jpeg if options.pictures == "jpeg" else as_png
     rng = np.random.default_rng([options.seed, 4])
-    try:
-        with tempfile.TemporaryDirectory() as folder, McapBagWriter(out) as bag:
+    with tempfile.TemporaryDirectory() as folder, made_beside(truth_file) as made:
+        with McapBagWriter(out) as bag:
             pictures = _Renderer(episode, views, Path(folder)).pictures if anew else sensing.drawn_pictures(episode)
             dropped = sensing.record(bag, episode, sensors, recorder, rng, pictures, encode)
             truth = _truth(options, episode, joints, sensors, recorder, views, dropped)
-            truth_file.write_text(json.dumps(truth, indent=1) + "\n")
-    except BaseException:
-        truth_file.unlink(missing_ok=True)
-        raise
+            made.write_text(json.dumps(truth, indent=1) + "\n")
+        give_name(made, truth_file)
     lost = sum(map(len, dropped.pictures.values()))
     tell(
         f"{out}: {episode.frames} frames, {len(views)} cameras; {lost} pictures and {len(dropped.joints)} joint "
@@ -126,8 +125,7 @@ def _truth_file(out: Path) -> Path:
         raise fault("--out", f"'{out}' is no name of a bag", "--out lab.mcap")
     truth = out.with_suffix(".truth.json")
     for file in (out, truth):
-        if file.exists():
-            raise fault(str(file), "there is something of that name", "name a new file, or remove it")
+        check_new(file)
     if not out.parent.is_dir():
         raise fault(str(out), f"there is no folder {out.parent}", f"mkdir -p {out.parent}")
     return truth
