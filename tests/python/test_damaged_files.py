@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import random
 import shutil
 import signal
@@ -149,6 +150,67 @@ def test_what_is_damaged_is_an_error_with_place_and_cure(form: str, made: Path, 
             assert not list(out.iterdir()), f"{form}, case {case}: something half written is left"
         shutil.rmtree(out)
     assert refused > 0, "nothing was damaged"
+
+
+# Files of a form that are a pipe which nobody writes to: readers must not wait for it.
+PIPES = {
+    "an MCAP file": ("ros_mcap/*.mcap", "", converted("mcap")),
+    "a bag": ("ros_mcap/*.mcap", "", converted("rosbag2")),
+    "a bag of ROS 1": ("plain.bag", "", converted("rosbag1")),
+    "a bag's MCAP": ("ros_mcap", "*.mcap", converted("rosbag2")),
+    "a bag's SQLite": ("ros_db3", "*.db3", converted("rosbag2")),
+    "a bag's metadata": ("ros_db3", "metadata.yaml", converted("rosbag2")),
+    "robomimic's HDF5": ("robomimic/*.hdf5", "", converted("robomimic")),
+    "LeRobot's info": ("lerobot", "info.json", converted("lerobot")),
+    "LeRobot's tables": ("lerobot", "tasks.parquet", converted("lerobot")),
+    "LeRobot's films": ("lerobot", "*.mp4", converted("lerobot")),
+    "RLBench's pickles": ("rlbench", "low_dim_obs.pkl", demos_of),
+    "RLBench's pictures": ("rlbench", "0.png", demos_of),
+    "a recording": ("folder", "recording.json", fitted),
+    "a recording's joints": ("folder", "joints.csv", fitted),
+}
+
+
+@pytest.mark.parametrize("form", PIPES)
+def test_a_pipe_is_no_file(form: str, made: Path, tmp_path: Path) -> None:
+    pattern, files, read = PIPES[form]
+    whole = next(made.glob(pattern))
+    source = tmp_path / whole.name
+    (shutil.copytree if whole.is_dir() else shutil.copy)(whole, source)
+    pipe = next(source.rglob(files)) if files else source
+    pipe.unlink()
+    os.mkfifo(pipe)
+    (tmp_path / "out").mkdir()
+    with pytest.raises(stampede.Error, match="it is no file|is missing") as caught, patience(form):
+        read(source, tmp_path / "out")
+    assert str(pipe) in str(caught.value)
+    assert not list((tmp_path / "out").iterdir())
+
+
+@pytest.mark.parametrize("option", ["--cameras", "--robot"])
+def test_a_pipe_is_no_option(option: str, made: Path, tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.json"
+    os.mkfifo(pipe)
+    command = ["rosbag2", str(made / "ros_mcap"), "--out", str(tmp_path / "o"), option, str(pipe)]
+    with pytest.raises(stampede.Error, match="pipe.json: (it is no file|there is no such)"), patience(option):
+        convert(command, lambda line: None)
+
+
+def test_a_dataset_names_no_file_of_others(made: Path, tmp_path: Path) -> None:
+    shutil.copytree(made / "lerobot", tmp_path / "given")
+    info = tmp_path / "given" / "meta" / "info.json"
+    whole = info.read_text()
+    for kind in ("data_path", "video_path"):
+        for name in ("../secret.parquet", "/secret.mp4"):
+            info.write_text(json.dumps({**json.loads(whole), kind: name}))
+            with pytest.raises(stampede.Error, match=f"its {kind} leads out of the dataset: {name}"):
+                converted("lerobot")(tmp_path / "given", tmp_path)
+    info.write_text(whole)
+    film = next((tmp_path / "given").rglob("*.mp4"))
+    film.rename(tmp_path / "secret.mp4")
+    film.write_text(f"ffconcat version 1.0\nfile {tmp_path / 'secret.mp4'}\n")
+    with pytest.raises(stampede.Error, match="the film ends early or is damaged"):
+        converted("lerobot")(tmp_path / "given", tmp_path)
 
 
 def test_interrupts_and_what_is_missing_pass() -> None:

@@ -1,9 +1,8 @@
-"""Files that are given, and files that are made: by the rules of the engine's own (engine/base/read_file.h, output_file.h)."""
+"""Files that are given, and files that are made, by the engine's own rules (engine/base/read_file.h, output_file.h)."""
 
 from __future__ import annotations
 
 import os
-import stat
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,14 +13,9 @@ from stampede.faults import fault
 
 
 def plain_file(path: Path) -> Path:
-    """The path, where a file is there. Raises Error for a pipe or a device, which could make a reader wait for ever."""
-    try:
-        mode = path.stat().st_mode
-    except (FileNotFoundError, NotADirectoryError):
-        raise fault(str(path), "there is no such file", "check its name") from None
-    except (OSError, ValueError) as error:
-        raise fault(str(path), f"it cannot be read: {error}", "check its name and permissions") from error
-    if not stat.S_ISREG(mode):
+    """The path, for who opens it. Raises Error for a pipe or a device, which would make a reader wait for ever, and for
+    a folder; what is not there, or may not be seen, is for the reader to tell."""
+    if os.path.exists(path) and not path.is_file():
         raise fault(str(path), "it is no file", "name a plain file")
     return path
 

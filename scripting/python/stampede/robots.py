@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from stampede._core import Error
 from stampede.faults import fault, unknown
+from stampede.files import plain_file
 
 Array = NDArray[Any]
 
@@ -163,6 +164,7 @@ def described_robot(text: str) -> dict[str, Any]:
     """`--robot`: a name, or a JSON file with the object `robot` of recording.json."""
     if not text.endswith(".json"):
         return {"name": text}
+    plain_file(Path(text))
     try:
         described = json.loads(Path(text).read_text())
     except (OSError, ValueError) as error:
@@ -176,6 +178,7 @@ def described_robot(text: str) -> dict[str, Any]:
 
 def _read(file: Path) -> tuple[ElementTree.Element, list[str]]:
     """A URDF and the names of its links, the base first."""
+    plain_file(file)
     try:
         urdf = ElementTree.parse(file).getroot()
     except (OSError, ElementTree.ParseError) as error:

@@ -25,6 +25,7 @@ from stampede.calibrate.problem import Camera, FixedBoard, Seen, locate, start
 from stampede.calibrate.words import lens_words, pose_words
 from stampede.export.steps import matrices
 from stampede.faults import fault, reading, unknown
+from stampede.files import plain_file
 from stampede.robots import Robot
 
 Json = dict[str, Any]
@@ -125,7 +126,7 @@ def _boards(options: argparse.Namespace, robot: Robot) -> list[FixedBoard]:
     for text in options.board_at:
         number, _, pose = text.partition("=")
         numbers = [float(word) for word in pose.split()] if re.fullmatch(r"[-+0-9.e ]+", pose) else []
-        if not number.isdigit() or not 1 <= int(number) <= len(boards) or len(numbers) != 7:
+        if not number.isdecimal() or not 1 <= int(number) <= len(boards) or len(numbers) != 7:
             raise fault(
                 "--board-at",
                 f"'{text}' is no pose of a board",
@@ -157,6 +158,7 @@ def _cameras(options: argparse.Namespace, recording: Recording, robot: Robot) ->
 def _file_entries(file: str | None) -> dict[str, Json]:
     if file is None:
         return {}
+    plain_file(Path(file))
     try:
         return {str(one["name"]): one for one in json.loads(Path(file).read_text())["cameras"]}
     except (OSError, ValueError, KeyError, TypeError) as error:

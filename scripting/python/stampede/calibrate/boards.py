@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stampede.faults import fault, unknown
+from stampede.files import plain_file
 
 Array = NDArray[Any]
 
@@ -144,7 +145,7 @@ def read_grey(file: Path) -> Array:
     """Raises Error for what is no picture."""
     cv2 = opencv()
     try:
-        data = np.frombuffer(file.read_bytes(), dtype=np.uint8)
+        data = np.frombuffer(plain_file(file).read_bytes(), dtype=np.uint8)
     except OSError as error:
         raise fault(str(file), f"it cannot be read: {error.strerror}", "check its name and permissions") from error
     picture = cv2.imdecode(data, cv2.IMREAD_GRAYSCALE) if len(data) else None

@@ -68,8 +68,7 @@ class Recording:
     def __init__(self, folder: Path, corrected: bool = False) -> None:
         self.folder = folder
         self.file = folder / "recording.json"
-        if self.file.exists():
-            _given(folder, self.file.name)
+        _given(folder, self.file.name)
         try:
             self.document: Json = json.loads(self.file.read_text())
             self.streams: list[Json] = [*self.document["streams"], *self.unplaced()]

@@ -45,7 +45,7 @@ def part_there(file: Path, shard: int, shards: int) -> Part:
 
 
 def claim(folder: Path, run: dict[str, Any]) -> None:
-    """Makes the folder this run's. Raises Error where parts of another one are in it, or a run.json of something else."""
+    """Makes the folder this run's. Raises Error where parts of another one are in it, or another run.json."""
     make_folder(folder)
     try:
         check_run(folder, run)

@@ -14,6 +14,7 @@ from typing import Any, Protocol
 
 from stampede._core import Error
 from stampede.faults import fault, reading
+from stampede.files import plain_file
 
 _MAGIC = b"\x89MCAP0\r\n"
 _SQLITE = b"SQLite format 3\x00"
@@ -48,7 +49,7 @@ def open_bag(path: Path, truncated: bool = False) -> Bag:
     if path.is_dir():
         return _of_folder(path, truncated)
     try:
-        with path.open("rb") as stream:
+        with plain_file(path).open("rb") as stream:
             head = stream.read(16)
     except OSError as error:
         raise fault(str(path), f"it cannot be read: {error.strerror}", "check its name and permissions") from error
@@ -68,6 +69,9 @@ def open_bag(path: Path, truncated: bool = False) -> Bag:
 
 
 def _of_folder(folder: Path, truncated: bool) -> Bag:
+    for one in folder.iterdir():
+        if not one.is_dir():
+            plain_file(one)  # rosbags opens what the metadata name
     if (folder / _METADATA).is_file() and not truncated:
         return RosBag(folder)
     files = sorted(one for ending in ("*.mcap", "*.db3", "*.bag") for one in folder.glob(ending))

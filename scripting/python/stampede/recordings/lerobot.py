@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from stampede.export.lerobot import tables
 from stampede.export.video import library as av_library
 from stampede.faults import fault
+from stampede.files import plain_file
 from stampede.recordings import rows as steps
 from stampede.recordings.folder import FolderWriter
 from stampede.recordings.given import Given
@@ -46,7 +47,6 @@ def convert(given: Given, options: argparse.Namespace) -> list[Path]:
     folders = []
     for number in numbers:
         path = steps.folder_of(given, number, len(numbers))
-        path.parent.mkdir(parents=True, exist_ok=True)
         with FolderWriter(path, options.skip_bad) as folder:
             _write(folder, dataset, number, given, options)
         folders.append(path)
@@ -60,6 +60,7 @@ class _Dataset:
     def __init__(self, root: Path) -> None:
         self.root = root
         self.arrow, self.parquet, _ = tables()
+        plain_file(root / "meta" / "info.json")
         try:
             self.info: Json = json.loads((root / "meta" / "info.json").read_text())
             self.version = str(self.info["codebase_version"]).lstrip("v")
@@ -88,6 +89,7 @@ class _Dataset:
         return sorted(found, key=lambda row: row["episode_index"])
 
     def read(self, file: Path, **options: Any) -> Any:
+        plain_file(file)
         try:
             return self.parquet.read_table(file, **options)
         except (OSError, self.arrow.ArrowException) as error:
@@ -96,7 +98,7 @@ class _Dataset:
             ) from error
 
     def _lines(self, name: str) -> list[Json]:
-        file = self.root / "meta" / name
+        file = plain_file(self.root / "meta" / name)
         try:
             return [json.loads(line) for line in file.read_text().splitlines() if line.strip()]
         except (OSError, ValueError) as error:
@@ -120,7 +122,7 @@ class _Dataset:
             "episode_chunk": number // int(self.info.get("chunks_size", _CHUNK)),
             "episode_index": number,
         }
-        file = self.root / str(self.info["data_path"]).format(**places)
+        file = self._place("data_path", places)
         table = self.read(file, filters=[("episode_index", "=", one["episode_index"])])
         if table.num_rows != one["length"]:
             raise fault(
@@ -140,8 +142,15 @@ class _Dataset:
             "episode_chunk": number // int(self.info.get("chunks_size", _CHUNK)),
             "episode_index": number,
         }
-        path = self.root / str(self.info["video_path"]).format(**places)
-        return path, float(one.get(f"videos/{key}/from_timestamp") or 0.0)
+        return self._place("video_path", places), float(one.get(f"videos/{key}/from_timestamp") or 0.0)
+
+    def _place(self, kind: str, places: Json) -> Path:
+        """A file by a pattern of info.json. It may be a link, as those of a hub's cache are, but is named in the dataset."""
+        name = str(self.info[kind]).format(**places)
+        if name.startswith("/") or ".." in name.split("/"):
+            cure = f"name files of the dataset in `{kind}`"
+            raise fault(str(self.root / "meta" / "info.json"), f"its {kind} leads out of the dataset: {name}", cure)
+        return self.root / name
 
     def names(self, feature: str) -> list[str]:
         names = self.features[feature].get("names") or []
@@ -238,7 +247,7 @@ def _film(dataset: _Dataset, number: int, key: str, rows: Rows) -> Iterator[tupl
         raise fault(str(path), "the film is missing", "copy all of the dataset")
     count = 0
     try:
-        with av.open(str(path)) as film:
+        with av.open(str(path), format="mp4") as film:  # no list of other files, which FFmpeg would follow
             stream = film.streams.video[0]
             stream.thread_type = "AUTO"
             half = 0.5 / dataset.fps

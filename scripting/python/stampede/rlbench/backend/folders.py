@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from stampede.files import plain_file
 from stampede.png import pillow
 from stampede.rlbench.backend.const import (
     DEPTH_SCALE,
@@ -33,7 +34,7 @@ def demo_folders(root: Path, task: str, variation: int) -> list[Path]:
     if not episodes.is_dir():
         there = ", ".join(sorted(one.name for one in (root / task).iterdir() if one.is_dir()))
         raise DemoError(f"{episodes}: there is no such folder\n    there are {there or 'none'}")
-    numbered = [one for one in episodes.iterdir() if one.name.removeprefix("episode").isdigit()]
+    numbered = [one for one in episodes.iterdir() if one.name.removeprefix("episode").isdecimal()]
     return sorted(numbered, key=lambda one: int(one.name.removeprefix("episode")))
 
 
@@ -99,7 +100,7 @@ def _take_pictures(seen: Observation, folder: Path, number: int, name: str, came
 
     def read(kind: str, resampling: Any) -> np.ndarray:
         nonlocal own_size
-        with image.open(folder / f"{name}_{kind}" / f"{number}.png") as picture:
+        with image.open(plain_file(folder / f"{name}_{kind}" / f"{number}.png")) as picture:
             own_size = picture.size
             if own_size != (width, height):
                 picture = picture.resize((width, height), resampling)

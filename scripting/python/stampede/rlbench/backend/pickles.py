@@ -4,6 +4,7 @@ import pickle
 from pathlib import Path
 from typing import Any
 
+from stampede.files import plain_file
 from stampede.rlbench.backend.exceptions import DemoError
 from stampede.rlbench.backend.unpickling import NotPlain, plain_value
 from stampede.rlbench.demo import Demo
@@ -36,7 +37,7 @@ def read_pickle(file: Path) -> Any:
     more than demos are made of.
     """
     try:
-        return plain_value(file.read_bytes())
+        return plain_value(plain_file(file).read_bytes())
     except FileNotFoundError:
         raise DemoError(f"{file}: there is no such file\n    an episode's folder has it") from None
     except OSError as error:
