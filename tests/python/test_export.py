@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import sys
 from pathlib import Path
@@ -332,6 +333,15 @@ def test_an_export_does_not_go_on_with_another_catalogue(
         export(arguments, tell=lambda line: None)
 
 
+@pytest.mark.parametrize("text", ["{", "[]", "{}", '"x"', "null", '{"options": {}, "episodes": [1]}', "[" * 99999])
+def test_a_damaged_manifest_is_told(made: Path, tmp_path: Path, text: str) -> None:
+    manifest = tmp_path / "stampede-export.json"
+    manifest.write_text(text)
+    with pytest.raises(stampede.Error, match="it is damaged, or not of an export") as caught:
+        export(["mcap", str(made), "--out", str(tmp_path)])
+    assert caught.value.where == str(manifest) and caught.value.hint and manifest.read_text() == text
+
+
 def test_bad_input(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
     def of(*options: str) -> list[str]:
         return [*options, "--out", str(tmp_path / "out")]
@@ -362,6 +372,14 @@ def test_bad_input(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
     (tmp_path / "full" / "thesis.txt").write_text("mine")
     with pytest.raises(stampede.Error, match="not empty"):
         export(["robomimic", str(made), "--out", str(tmp_path / "full")])
+    (tmp_path / "link").symlink_to(tmp_path / "full" / "thesis.txt")
+    (tmp_path / "nowhere").symlink_to(tmp_path / "none")
+    os.mkfifo(tmp_path / "pipe")
+    for form in stampede.export.FORMATS:
+        for out in ("full/thesis.txt", "full/thesis.txt/in", "link", "nowhere", "pipe"):
+            with pytest.raises(stampede.Error, match="it is no folder|it cannot be written: Not a directory"):
+                export([form, str(made), "--where", "task = 'pick_and_lift'", "--out", str(tmp_path / out)])
+    assert (tmp_path / "full" / "thesis.txt").read_text() == "mine" and not (tmp_path / "none").exists()
     monkeypatch.setitem(sys.modules, "h5py", None)
     with pytest.raises(ImportError, match=r"stampede-sim\[hdf5\]"):
         export(["robomimic", str(made), "--out", str(tmp_path / "missing")])

@@ -1,4 +1,4 @@
-"""HDF5 files of others: nothing of other files comes in, any demo's name will do, and what is wrong is told by its key."""
+"""HDF5 files of others: nothing of other files comes in, demos have any name, and what is wrong is told by its key."""
 
 from __future__ import annotations
 

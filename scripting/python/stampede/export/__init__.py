@@ -11,6 +11,7 @@ import argparse
 import hashlib
 import importlib
 import json
+import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -19,6 +20,7 @@ from typing import Any, Protocol
 from stampede.catalogue import Catalogue, StoredEpisode
 from stampede.export import steps
 from stampede.faults import fault, unknown
+from stampede.files import make_folder, plain_file
 
 FORMATS = {
     "robomimic": "HDF5 of robomimic (arXiv:2108.03298), which robosuite and many trainers read",
@@ -200,28 +202,41 @@ def _begun(folder: Path, options: argparse.Namespace, catalogue: Catalogue) -> l
 
     Raises Error where it was another export, or another catalogue lies in that place now, or the folder is in use.
     """
+    if os.path.lexists(folder) and not folder.is_dir():
+        raise fault(str(folder), "it is no folder", "name a new one")
     if not (folder / _MANIFEST).exists():
         may_grow = getattr(_module(options.format), "may_grow", None)
         if folder.exists() and any(folder.iterdir()) and not (may_grow and may_grow(folder)):
             raise fault(str(folder), "the folder is not empty", "name a new one")
         return []
-    manifest = json.loads((folder / _MANIFEST).read_text())
-    if manifest["options"] != _asked(options):
+    asked, begun_with = _manifest_in(folder)
+    if asked != _asked(options):
         raise fault(
             str(folder),
             "another export was cut off here",
             f"give the options of {folder / _MANIFEST} to go on with it, or name another folder",
         )
     known = {episode.id: episode for episode in catalogue.episodes()}
-    episodes = [known[number] for number, _ in manifest["episodes"] if number in known]
-    if _keys(catalogue, episodes) != manifest["episodes"]:
+    episodes = [known[number] for number, _ in begun_with if number in known]
+    if _keys(catalogue, episodes) != begun_with:
         raise fault(str(folder), f"{options.catalogue} is not the file that it began with", "name another folder")
     return episodes
 
 
+def _manifest_in(folder: Path) -> tuple[Any, list[list[Any]]]:
+    """What an export was asked for, and number and key of its episodes. Raises Error where it does not say that."""
+    file = plain_file(folder / _MANIFEST)
+    try:
+        manifest = json.loads(file.read_text())
+        return manifest["options"], [[int(number), str(key)] for number, key in manifest["episodes"]]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        what = f"it is damaged, or not of an export that was cut off ({type(error).__name__}: {error})"
+        raise fault(str(file), what, "name another folder, or remove this one") from error
+
+
 def _begin(folder: Path, options: argparse.Namespace, episodes: Sequence[StoredEpisode]) -> None:
     """Notes what the export is of: the same command goes on with these episodes, whatever comes to the catalogue."""
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     manifest = {"options": _asked(options), "episodes": _keys(episodes[0].catalogue, episodes)}
     partial = folder / f"{_MANIFEST}.part"
     partial.write_text(json.dumps(manifest, indent=1))
