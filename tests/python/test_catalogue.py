@@ -240,6 +240,21 @@ def test_one_process_reads_while_another_writes(made: Path, tmp_path: Path) -> N
     assert len(pickle.loads(pickle.dumps(reader))) == 2
 
 
+def test_numbers_beyond_64_bits_are_told(demos: stampede.Catalogue) -> None:
+    for value in (2**70, -(2**63) - 1, 10**5000):
+        with pytest.raises(stampede.Error, match="a parameter of a question: .* is too large") as caught:
+            demos.query("select ?1", value)
+        assert "64 bits" in caught.value.hint
+        with pytest.raises(stampede.Error, match="a parameter of a question: .* is too large"):
+            _ = demos[value]
+    assert demos.query("select ?1 as n", 2**63 - 1).values("n") == [2**63 - 1]
+
+
+def test_texts_that_utf_8_has_not_are_told(demos: stampede.Catalogue) -> None:
+    with pytest.raises(stampede.Error, match=r"a parameter of a question: '\\ud800' is no text that UTF-8 has"):
+        demos.query("select ?1", "\ud800")
+
+
 def test_files_that_cannot_serve(tmp_path: Path) -> None:
     with pytest.raises(stampede.CatalogueError, match="none.db"):
         stampede.Catalogue(tmp_path / "none.db")

@@ -23,6 +23,27 @@ def test_a_run_is_the_same_bits_in_any_session(tmp_path: Path) -> None:
     assert stored.id == 1 and stored.key == one.key
 
 
+@pytest.mark.parametrize(
+    ("request_", "kind", "words"),
+    [
+        ({"seed": 2**70}, stampede.Error, r"run\(seed=\): 1180591620717411303424 is too large"),
+        ({"seed": 10**5000}, stampede.Error, r"run\(seed=\): a value of type int is too large"),
+        ({"skills": 2**40}, stampede.Error, r"run\(skills=\): 1099511627776 is too large"),
+        ({"variation": "\ud800"}, stampede.Error, r"run\(variation=\): '\\ud800' is no text that UTF-8 has"),
+        ({"\ud800": 1}, stampede.Error, r"run: '\\ud800' is no text that UTF-8 has"),
+        ({"seed": "7"}, TypeError, r"run\(seed=\) cannot be '7', of type str"),
+        ({"seed": 1.5}, TypeError, r"run\(seed=\) cannot be 1.5, of type float"),
+        ({"variation": 7}, TypeError, r"run\(variation=\) cannot be 7, of type int"),
+        ({"on_failure": 7}, TypeError, r"run\(on_failure=\) cannot be 7, of type int"),
+        ({"pictures": 7}, TypeError, r"run\(pictures=\) cannot be 7, of type int"),
+        ({"pictures": {"width": "x"}}, TypeError, r"run\(pictures=\) cannot be {'width': 'x'}, of type dict"),
+    ],
+)
+def test_arguments_that_do_not_fit_are_told_by_name(request_: dict[str, object], kind: type, words: str) -> None:
+    with pytest.raises(kind, match=words):
+        stampede.Session().run("reach_target", **request_)
+
+
 def test_a_sink_gets_episodes_in_order_whatever_the_workers() -> None:
     session = stampede.Session()
     kept: list[tuple[int, float]] = []

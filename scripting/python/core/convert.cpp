@@ -2,15 +2,56 @@
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
+#include <stampede/error.h>
+
+#include <limits>
 
 namespace stampede::python {
 namespace {
+
+constexpr const char* kParameter = "a parameter of a question";
+constexpr long long kSmall = std::numeric_limits<std::int32_t>::max();  // whole numbers up to it fit everywhere
 
 bool is_truth(const ChannelValue& channel) {
   return std::holds_alternative<std::vector<std::uint8_t>>(channel.data) && !channel.name.ends_with("_rgb");
 }
 
+bool is_large(nb::handle value) {
+  if (!PyLong_Check(value.ptr())) return false;
+  int beyond = 0;
+  const long long number = PyLong_AsLongLongAndOverflow(value.ptr(), &beyond);
+  return beyond != 0 || number > kSmall || number < -kSmall;
+}
+
+bool is_broken_text(nb::handle value) {
+  if (!PyUnicode_Check(value.ptr())) return false;
+  const bool broken = PyUnicode_AsUTF8(value.ptr()) == nullptr;
+  PyErr_Clear();
+  return broken;
+}
+
+// Of a number with thousands of digits Python makes no text.
+std::string short_text(nb::handle value) {
+  constexpr std::size_t kMost = 60;
+  const nb::object text = nb::steal(PyObject_ASCII(value.ptr()));
+  if (!text.is_valid()) {
+    PyErr_Clear();
+    return std::string("a value of type ") + nb::type_name(value.type()).c_str();
+  }
+  const auto words = nb::cast<std::string>(text);
+  return words.size() <= kMost ? words : words.substr(0, kMost) + "...";
+}
+
 }  // namespace
+
+void refuse_value(nb::handle value, const std::string& where) {
+  const std::string text = short_text(value);
+  if (is_large(value)) throw Error(where, text + " is too large", "64 bits at most, 32 for sizes, rates and counts");
+  if (is_broken_text(value))
+    throw Error(where, text + " is no text that UTF-8 has", "take out halves of characters (lone surrogates)");
+  const std::string type = nb::type_name(value.type()).c_str();
+  throw nb::type_error((where + " cannot be " + text + ", of type " + type).c_str());
+}
 
 nb::object to_python(ChannelValue channel) {
   const bool truth = is_truth(channel);
@@ -56,13 +97,13 @@ nb::object to_python(const SqlValue& value) {
 SqlValue sql_value(nb::handle value) {
   if (value.is_none()) return std::monostate{};
   if (nb::isinstance<nb::bool_>(value)) return static_cast<std::int64_t>(nb::cast<bool>(value));
-  if (nb::isinstance<nb::str>(value)) return nb::cast<std::string>(value);
+  if (nb::isinstance<nb::str>(value)) return value_of<std::string>(value, kParameter);
   if (nb::isinstance<nb::bytes>(value)) {
     const auto bytes = nb::borrow<nb::bytes>(value);
     return SqlBlob{std::string(bytes.c_str(), bytes.size())};
   }
-  if (nb::hasattr(value, "__index__")) return nb::cast<std::int64_t>(value.attr("__index__")());
-  if (nb::hasattr(value, "__float__")) return nb::cast<double>(value.attr("__float__")());
+  if (nb::hasattr(value, "__index__")) return value_of<std::int64_t>(value.attr("__index__")(), kParameter);
+  if (nb::hasattr(value, "__float__")) return value_of<double>(value.attr("__float__")(), kParameter);
   throw nb::type_error("a parameter of a question is None, a number, str or bytes");
 }
 

@@ -60,6 +60,17 @@ nb::object to_python(const SqlValue& value);
 SqlValue sql_value(nb::handle value);  // of None, int, float, str, bytes, and of numpy's scalars
 nb::list rows_of(const Rows& rows);    // tuples
 
+// Throws Error for a value that is of the right type and does not fit: a number too large, a text that is none in
+// UTF-8; TypeError for another. `where`: the function and the argument.
+[[noreturn]] void refuse_value(nb::handle value, const std::string& where);
+
+template <typename Value>
+Value value_of(nb::handle value, const std::string& where) {
+  Value result{};
+  if (!nb::try_cast(value, result)) refuse_value(value, where);
+  return result;
+}
+
 // Numbers as they come: a number, lists, tuples, numpy arrays of one axis. `what`: for complaints.
 std::vector<double> numbers(nb::handle values, const char* what);
 

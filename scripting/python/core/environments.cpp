@@ -19,7 +19,8 @@ AgentAction skill_action(const std::string& skill, std::vector<std::string> argu
   AgentAction action{.space = "skill", .controller = controller, .frames = frames, .skill = skill};
   action.arguments = std::move(arguments);
   for (const auto& [name, values] : parameters)
-    action.parameters.push_back({nb::cast<std::string>(name), numbers(values, "a parameter")});
+    action.parameters.push_back(
+        {value_of<std::string>(name, "Action.skill_call(parameters=)"), numbers(values, "a parameter")});
   return action;
 }
 

@@ -3,6 +3,7 @@
 #include <stampede/error.h>
 
 #include <regex>
+#include <typeinfo>
 
 #include "convert.h"
 
@@ -80,6 +81,8 @@ void bind_errors(nb::module_& module) {
       raise(error_type, error);
     } catch (const Interruption& interruption) {
       raise_cause(interruption);
+    } catch (const std::bad_cast&) {  // where nobody has said what it is of: `value_of` does
+      PyErr_SetString(PyExc_TypeError, "a value is not of the type that is taken there, or does not fit");
     }
   });
 }

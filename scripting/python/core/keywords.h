@@ -9,10 +9,11 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
-#include "threads.h"
+#include "convert.h"
 
 namespace stampede::python {
 
@@ -41,10 +42,14 @@ template <typename Request, std::size_t Count>
 Request from_keywords(const Keyword<Request> (&known)[Count], const nb::kwargs& words, const char* where) {
   Request request;
   for (const auto& [key, value] : words) {
-    const auto name = nb::cast<std::string>(key);
+    const auto name = value_of<std::string>(key, where);
     const Keyword<Request>* keyword = find_keyword(known, name);
     if (keyword == nullptr) throw nb::type_error((std::string(where) + "() has no argument '" + name + "'").c_str());
-    keyword->set(request, value, where);
+    try {
+      keyword->set(request, value, where);
+    } catch (const std::bad_cast&) {
+      refuse_value(value, std::string(where) + "(" + name + "=)");
+    }
   }
   return request;
 }

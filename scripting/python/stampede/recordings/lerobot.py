@@ -145,7 +145,7 @@ class _Dataset:
         return self._place("video_path", places), float(one.get(f"videos/{key}/from_timestamp") or 0.0)
 
     def _place(self, kind: str, places: Json) -> Path:
-        """A file by a pattern of info.json, which names those of the dataset alone; they may be links, as in a hub's cache."""
+        """A file by a pattern of info.json, which names the dataset's own; they may be links, as in a hub's cache."""
         name = str(self.info[kind]).format(**places)
         if name.startswith("/") or ".." in name.split("/"):
             cure = f"name files of the dataset in `{kind}`"
