@@ -4,6 +4,7 @@ import functools
 import os
 import pickle
 import re
+import shutil
 import sys
 import types
 from pathlib import Path
@@ -53,7 +54,7 @@ def config_with(*cameras: str) -> ObservationConfig:
     for name in cameras:
         camera = config.cameras[name]
         camera.set_all(True)
-        camera.image_size = (H, W)
+        camera.image_size = (W, H)
         camera.render_mode = RenderMode.OPENGL
     return config
 
@@ -282,7 +283,7 @@ def test_low_dim_data_is_in_order_and_leaves_out_what_is_off() -> None:
 def test_cameras_have_rlbenchs_convention() -> None:
     """The goal's middle, by extrinsics and negative focal lengths, is where mask and point cloud have the goal."""
     config = config_with("front")
-    config.front_camera.image_size = (120, 160)
+    config.front_camera.image_size = (160, 120)
     _, seen = task_for(JointVelocity(), config).reset()
     intrinsics, extrinsics = seen.misc["front_camera_intrinsics"], seen.misc["front_camera_extrinsics"]
     assert intrinsics[0, 0] == intrinsics[1, 1] == pytest.approx(-175.84 * 120 / 128, rel=1e-3)
@@ -296,9 +297,24 @@ def test_cameras_have_rlbenchs_convention() -> None:
     assert np.linalg.norm(seen.front_point_cloud[goal] - target_of(seen), axis=1).max() < 0.06
 
 
+def test_sizes_are_width_and_height_live_and_stored(catalogue: Path, dataset: Path) -> None:
+    config = config_with("front")
+    config.front_camera.image_size = [40, 24]
+    _, live = task_for(JointVelocity(), config).reset()
+    (drawn,) = get_stored_demos(1, False, catalogue, red(), "reach_target", config, False)
+    (resized,) = get_stored_demos(1, False, dataset, red(), "reach_target", config, False)
+    for seen in (live, drawn[0], resized[0]):
+        assert seen.front_rgb.shape == (24, 40, 3) and seen.front_depth.shape == seen.front_mask.shape == (24, 40)
+        assert seen.misc["front_camera_intrinsics"][:2, 2].tolist() == [19.5, 11.5]
+    for size in (64, (64,), (0, 64), ("64", 64), (64.5, 64), None):
+        config.front_camera.image_size = size
+        with pytest.raises(Error, match=r"CameraConfig\(image_size=\): .* is no size"):
+            task_for(JointVelocity(), config)
+
+
 def test_each_camera_has_its_own_size() -> None:
     config = config_with("front", "wrist")
-    config.wrist_camera.image_size = (20, 30)
+    config.wrist_camera.image_size = (30, 20)
     _, seen = task_for(JointVelocity(), config).reset()
     assert seen.front_rgb.shape == (H, W, 3) and seen.wrist_rgb.shape == (20, 30, 3)
     assert seen.wrist_point_cloud.shape == (20, 30, 3)
@@ -911,6 +927,40 @@ def test_all_variations_together(catalogue: Path, tmp_path: Path) -> None:
         get_stored_demos(-1, False, folder, -1, "reach_target", config_with(), random_selection=False)
 
 
+def test_all_variations_of_the_usual_layout(dataset: Path, tmp_path: Path) -> None:
+    """Each variation has its folder; there, RLBench's own episodes do not say their variation's number."""
+    task = tmp_path / "given" / "reach_target"
+    for number, count in ((10, 1), (2, 2), (0, 0)):
+        (task / f"variation{number}" / "episodes").mkdir(parents=True)
+        for place in range(count):
+            whole = dataset / "reach_target" / f"variation{red()}" / "episodes" / "episode0"
+            episode = task / f"variation{number}" / "episodes" / f"episode{place}"
+            shutil.copytree(whole, episode)
+            (episode / "variation_number.pkl").unlink()
+    (task / "variation7").mkdir()  # of an export that was cut off
+    (task / "variation²" / "episodes" / "episode²").mkdir(parents=True)
+    demos = get_stored_demos(-1, False, tmp_path / "given", -1, "reach_target", config_with(), random_selection=False)
+    assert [demo.variation_number for demo in demos] == [2, 2, 10]
+    with pytest.raises(DemoError, match="variation7/episodes: there is no such folder"):
+        get_stored_demos(-1, False, tmp_path / "given", 7, "reach_target", config_with())
+    shutil.rmtree(task)
+    task.mkdir()
+    with pytest.raises(DemoError, match="all_variations/episodes: there is no such folder"):
+        get_stored_demos(-1, False, tmp_path / "given", -1, "reach_target", config_with())
+
+
+def test_an_array_of_demos_has_one_entry_a_demo(dataset: Path) -> None:
+    """As RLBench's example of imitation learning does it."""
+    task = task_for(JointVelocity(), dataset_root=str(dataset))
+    task.set_variation(red())
+    for demos in (task.get_demos(2), task.get_demos(2, live_demos=True)):
+        flat = np.array(demos).flatten()
+        assert flat.shape == (2,) and flat[0] is demos[0] and flat[1] is demos[1]
+        batch = np.random.choice(flat, replace=False)
+        assert [seen.joint_velocities.shape for seen in batch] == [(7,)] * len(batch)
+        assert np.asarray(demos, dtype=object).shape == (2,)
+
+
 def test_collisions_are_ignored_where_a_motion_was_not_planned_around_them(catalogue: Path) -> None:
     (demo,) = get_stored_demos(-1, False, catalogue, black(), "pick_and_lift", config_with(), False)
     from stampede import Catalogue
@@ -933,7 +983,7 @@ def test_paths_instead_of_pictures_and_other_sizes(dataset: Path) -> None:
     (demo,) = get_stored_demos(1, True, dataset, red(), "reach_target", config, False, 1)
     assert Path(demo[3].front_depth).name == "3.png" and Path(demo[3].front_depth).is_file()
     assert demo[3].front_point_cloud is None and demo.seed == 2
-    config.front_camera.image_size = (24, 32)
+    config.front_camera.image_size = (32, 24)
     (small,) = get_stored_demos(1, False, dataset, red(), "reach_target", config, False)
     assert small[0].front_rgb.shape == (24, 32, 3) and small[0].front_depth.shape == (24, 32)
     assert np.allclose(np.diag(small[0].misc["front_camera_intrinsics"]), [-32.97, -32.97, 1.0], atol=0.01)

@@ -60,6 +60,19 @@ class Demo:
         np.random.set_state(self.random_seed)
 
 
+class Demos(list[Demo]):
+    """
+    What `get_demos` gives. `np.array` of it has one entry a demo, as programs written for RLBench expect: demos are of
+    different lengths, and there is no array of all their observations.
+    """
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+        demos = np.empty(len(self), dtype=object)
+        for place, demo in enumerate(self):
+            demos[place] = demo
+        return demos
+
+
 def _is_generator_state(state: Any) -> bool:
     """Whether it is one of a Mersenne Twister, as `np.random.get_state()` gives it."""
     if not isinstance(state, tuple) or len(state) != 5 or state[0] != "MT19937":

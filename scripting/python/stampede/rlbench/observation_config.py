@@ -1,7 +1,9 @@
 """What an `Observation` holds."""
 
+import operator
 from enum import Enum
 
+from stampede.faults import fault
 from stampede.rlbench.noise_model import Identity, NoiseModel
 
 CAMERAS = ("left_shoulder", "right_shoulder", "overhead", "wrist", "front")
@@ -18,7 +20,7 @@ class CameraConfig:
     """
     What one camera gives.
 
-    image_size: height and width, pixels. render_mode: OPENGL3 draws shadows, any other does not.
+    image_size: width and height, pixels, as PyRep has them. render_mode: OPENGL3 draws shadows, any other does not.
     masks_as_one_channel: masks are ids (H, W); else colours (H, W, 3) of 0 … 1. depth_in_meters: depth is m; else 0 at
     the near plane, 1 at the far one.
     """
@@ -58,6 +60,17 @@ class CameraConfig:
     @property
     def is_on(self) -> bool:
         return self.rgb or self.depth or self.point_cloud or self.mask
+
+    @property
+    def width_and_height(self) -> tuple[int, int]:
+        """`image_size`, pixels. Raises `stampede.Error` for what is no size."""
+        try:
+            width, height = (operator.index(size) for size in self.image_size)
+        except (TypeError, ValueError):
+            width = height = 0
+        if width < 1 or height < 1:
+            raise fault("CameraConfig(image_size=)", f"{self.image_size!r} is no size", "(width, height), pixels")
+        return width, height
 
     @property
     def shadows(self) -> bool:

@@ -14,7 +14,7 @@ from stampede.rlbench.backend.exceptions import DemoError, InvalidActionError
 from stampede.rlbench.backend.observation import Observation
 from stampede.rlbench.backend.recorded import STOP_AT_VIAS, columns, demo_observations
 from stampede.rlbench.backend.scene import Scene, Start
-from stampede.rlbench.demo import Demo
+from stampede.rlbench.demo import Demo, Demos
 from stampede.rlbench.observation_config import ObservationConfig
 from stampede.rlbench.utils import check_dataset_root, stored_demos
 
@@ -144,7 +144,7 @@ class TaskEnvironment:
         if live_demos:
             if amount < 1:
                 raise Error(f"{amount} live demos cannot be made\n    ask for at least one")
-            return [self._live_demo(callable_each_step, max_attempts, stop_at_vias) for _ in range(amount)]
+            return Demos(self._live_demo(callable_each_step, max_attempts, stop_at_vias) for _ in range(amount))
         return stored_demos(
             check_dataset_root(self._dataset_root),
             self._task,

@@ -17,7 +17,7 @@ from stampede.rlbench.backend.folders import demo_folders, load_demo
 from stampede.rlbench.backend.recorded import STOP_AT_VIAS, columns, demo_observations
 from stampede.rlbench.backend.task import Task
 from stampede.rlbench.backend.utils import task_file_to_task_class
-from stampede.rlbench.demo import Demo
+from stampede.rlbench.demo import Demo, Demos
 from stampede.rlbench.observation_config import ObservationConfig
 
 
@@ -39,8 +39,9 @@ def get_stored_demos(
     """
     Demos of one variation of a task, from a folder in RLBench's layout or from a catalogue.
 
-    variation_number: -1 is all of them: a folder has such demos in `all_variations`. amount: -1 is all. image_paths: pictures are paths of files, and there are no point clouds. random_selection: drawn
-    without repetition from numpy's global generator; else in order, from `from_episode_number` on.
+    variation_number: -1 is all of them, in `all_variations` where the folder has that, else by variation. amount: -1 is
+    all. image_paths: pictures are paths of files, and there are no point clouds. random_selection: drawn without
+    repetition from numpy's global generator; else in order, from `from_episode_number` on.
     Raises DemoError where they are not there, or broken.
     """
     root = check_dataset_root(dataset_root)
@@ -93,7 +94,7 @@ def stored_demos(
     if root.is_dir():
         folders = demo_folders(root, task, variation)
         chosen = _choice(len(folders), amount, random_selection, from_episode_number, f"{task}, variation {variation}")
-        return [_demo_of(folders[place], variation, config, image_paths) for place in chosen]
+        return Demos(_demo_of(folders[place], variation, config, image_paths) for place in chosen)
     if image_paths:
         raise DemoError(f"{root}: a catalogue has no files of pictures\n    image_paths=False, or export it to folders")
     if not -1 <= variation < len(variations):
@@ -105,7 +106,7 @@ def stored_demos(
     rows = [(episode, variations.index(text)) for episode, text in rows if text in wanted]
     of_what = f"{task}, all variations" if variation == -1 else f"{task} '{wanted[0]}'"
     chosen = _choice(len(rows), amount, random_selection, from_episode_number, of_what)
-    return [_catalogue_demo(reader, *rows[place], config) for place in chosen]
+    return Demos(_catalogue_demo(reader, *rows[place], config) for place in chosen)
 
 
 def _choice(there: int, amount: int, random_selection: bool, first: int, of_what: str) -> list[int]:

@@ -1,5 +1,6 @@
 """Demos in RLBench's folders: TASK/variation0/episodes/episode0/front_rgb/0.png … and low_dim_obs.pkl."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ from stampede.files import plain_file
 from stampede.png import pillow
 from stampede.rlbench.backend.const import (
     DEPTH_SCALE,
+    EPISODE_FOLDER,
     EPISODES_FOLDER,
     LOW_DIM_PICKLE,
     VARIATION_NUMBER,
@@ -25,17 +27,31 @@ from stampede.rlbench.observation_config import CameraConfig, ObservationConfig
 
 
 def demo_folders(root: Path, task: str, variation: int) -> list[Path]:
-    """Folders of the episodes of one variation, by number; variation -1: of the layout that has all together."""
+    """Folders of the episodes of one variation, by number; variation -1: of all, which one layout has together."""
     if not (root / task).is_dir():
         there = ", ".join(sorted(one.name for one in root.iterdir() if one.is_dir()))
         raise DemoError(f"{root}: there is no task '{task}'\n    there are {there or 'none'}")
-    folder = VARIATIONS_ALL_FOLDER if variation == -1 else VARIATIONS_FOLDER % variation
-    episodes = root / task / folder / EPISODES_FOLDER
-    if not episodes.is_dir():
+    name = VARIATIONS_ALL_FOLDER if variation == -1 else VARIATIONS_FOLDER % variation
+    folders = [root / task / name / EPISODES_FOLDER]
+    if variation == -1 and not folders[0].is_dir():
+        each = [one / EPISODES_FOLDER for one in _numbered(root / task, VARIATIONS_FOLDER)]
+        folders = [one for one in each if one.is_dir()] or folders
+    if not folders[0].is_dir():
         there = ", ".join(sorted(one.name for one in (root / task).iterdir() if one.is_dir()))
-        raise DemoError(f"{episodes}: there is no such folder\n    there are {there or 'none'}")
-    numbered = [one for one in episodes.iterdir() if one.name.removeprefix("episode").isdecimal()]
-    return sorted(numbered, key=lambda one: int(one.name.removeprefix("episode")))
+        raise DemoError(f"{folders[0]}: there is no such folder\n    there are {there or 'none'}")
+    return [episode for one in folders for episode in _numbered(one, EPISODE_FOLDER)]
+
+
+def _number_of(folder: Path, pattern: str) -> int | None:
+    """12 of a folder `episode12`. pattern: `episode%d`."""
+    match = re.fullmatch(pattern.replace("%d", "([0-9]{1,9})"), folder.name)
+    return None if match is None else int(match[1])
+
+
+def _numbered(folder: Path, pattern: str) -> list[Path]:
+    """`episode0`, `episode1` … in it, in the order of their numbers."""
+    found = ((_number_of(one, pattern), one) for one in folder.iterdir())
+    return [one for _, one in sorted((number, one) for number, one in found if number is not None)]
 
 
 def load_demo(folder: Path, variation: int, config: ObservationConfig, image_paths: bool) -> Demo:
@@ -70,6 +86,9 @@ def load_demo(folder: Path, variation: int, config: ObservationConfig, image_pat
 
 
 def _variation_number(folder: Path) -> int:
+    of_folder = _number_of(folder.parents[1], VARIATIONS_FOLDER)
+    if of_folder is not None and not (folder / VARIATION_NUMBER).exists():  # RLBench's own have none there
+        return of_folder
     number = read_pickle(folder / VARIATION_NUMBER)
     if not isinstance(number, int) or isinstance(number, bool) or number < 0:
         raise DemoError(f"{folder / VARIATION_NUMBER}: it holds no variation's number\n    write the dataset again")
@@ -95,7 +114,7 @@ def _take_paths(seen: Observation, folder: Path, number: int, name: str, camera:
 
 def _take_pictures(seen: Observation, folder: Path, number: int, name: str, camera: CameraConfig) -> None:
     image = pillow("rlbench")
-    height, width = (int(size) for size in camera.image_size)
+    width, height = camera.width_and_height
     own_size = (width, height)
 
     def read(kind: str, resampling: Any) -> np.ndarray:

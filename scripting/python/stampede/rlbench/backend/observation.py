@@ -27,7 +27,7 @@ class Observation:
     """
     One frame, a twentieth of a second. A field that is switched off is None.
 
-    CAMERA is left_shoulder, right_shoulder, overhead, wrist or front; H x W is its image_size; n is 7.
+    CAMERA is left_shoulder, right_shoulder, overhead, wrist or front; H x W is its height and width; n is 7.
 
     CAMERA_rgb           (H, W, 3) uint8
     CAMERA_depth         (H, W) float32: 0 at the near plane, 1 at the far one; or m. Nothing in range is the far plane

@@ -108,7 +108,7 @@ def demo_observations(
 
 
 def _drawn_view(arrays: EpisodeArrays, draw: Draw, frame: int, name: str, config: CameraConfig) -> CameraView:
-    height, width = config.image_size
+    width, height = config.width_and_height
     drawn = draw(
         frame,
         name,

@@ -53,9 +53,7 @@ class Scene:
             hidden=True,
             reward="dense" if dense_reward else "sparse",
             horizon_s=_NO_HORIZON_S,
-            picture_sizes={
-                name: (int(camera.image_size[1]), int(camera.image_size[0])) for name, camera in self._cameras.items()
-            },
+            picture_sizes={name: camera.width_and_height for name, camera in self._cameras.items()},
             shadows=any(camera.shadows for camera in self._cameras.values()),
         )
         self.numbers: dict[str, Any] = {}
