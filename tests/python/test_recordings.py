@@ -206,6 +206,16 @@ def test_positions_that_are_no_numbers(tmp_path: Path) -> None:
     assert len(table(out / "joints.csv")) == 19
 
 
+def test_a_joint_state_with_fewer_positions_than_names(tmp_path: Path) -> None:
+    with RosBag(tmp_path / "bag") as bag:
+        for k in range(5):
+            stamp = START + k * 10**7
+            bag.joint_state("/joint_states", stamp, stamp, NAMES, HOME[: 9 if k != 2 else 3])
+    assert "it has 3 positions for 9 names of joints" in refused(tmp_path, tmp_path / "bag").message
+    out, told = run(tmp_path / "bag", tmp_path / "again", "--skip-bad")
+    assert len(table(out / "joints.csv")) == 4 and any("1 left out" in line for line in told)
+
+
 def test_another_robot(tmp_path: Path) -> None:
     bag = write_bag(tmp_path / "bag", names=[f"iiwa_joint_{k}" for k in range(1, 10)])
     error = refused(tmp_path, bag)

@@ -161,7 +161,7 @@ class _Conversion:
             position = values[0]
             if not np.isfinite(position).all():
                 bad = arm[int(np.flatnonzero(~np.isfinite(position))[0])]
-                stream.skip(f"the position of {bad} is not a number")
+                stream.skip(_lack_of(message) or f"the position of {bad} is not a number")
                 return
             stream.row(time, values.ravel().tolist())
 
@@ -180,7 +180,7 @@ class _Conversion:
                 return
             opening = float(values.sum()) * (2 if len(fingers) == 1 else 1)
             if not np.isfinite(opening):
-                stream.skip("the opening of the fingers is not a number")
+                stream.skip(_lack_of(message) or "the opening of the fingers is not a number")
                 return
             stream.row(time, [opening])
 
@@ -292,6 +292,13 @@ class _Conversion:
     def _tell_streams(self) -> None:
         for stream in self._folder.streams:
             self._given.tell(_line(stream))
+
+
+def _lack_of(message: JointReading) -> str:
+    """What its positions lack, if there are not as many as names."""
+    if len(message.position) == len(message.names):
+        return ""
+    return f"it has {len(message.position)} positions for {len(message.names)} names of joints"
 
 
 def _give(takers: list[Callable[[Any, int], None]], message: Message, time: int) -> None:
