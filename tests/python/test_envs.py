@@ -1,9 +1,13 @@
 """Env and SkillEnv: spaces, seeds, refusals, ends, records."""
 
+import copy
+import pickle
+
 import gymnasium
 import numpy as np
 import pytest
 
+import stampede
 from stampede import _core
 from stampede.envs import Env, SkillEnv
 from stampede.envs.spaces import ObservationCodec, box_within
@@ -328,6 +332,49 @@ def test_environments_share_the_session_of_a_catalogue(tmp_path):
     one, other = (Env("reach_target", record=True, catalogue=tmp_path / "a.db") for _ in range(2))
     assert one.session is other.session
     assert one.session is not Env("reach_target").session
+
+
+def test_only_saved_moments_are_restored():
+    env = Env("reach_target")
+    env.reset(seed=1)
+    for nothing in (None, 5, env.save().state):
+        with pytest.raises(_core.Error, match=r"Env.restore: .* is no saved moment"):
+            env.restore(nothing)
+    env.restore(env.save())
+
+
+def test_of_a_stored_episode_it_is_said_how_to_begin_in_it(tmp_path):
+    session = stampede.Session(catalogue=tmp_path / "demos.db")
+    session.run("reach_target", seed=3)
+    stored = stampede.Catalogue(tmp_path / "demos.db")[1]
+    env = Env("reach_target")
+    with pytest.raises(_core.Error, match="'episode' is no stampede.Episode, but StoredEpisode") as caught:
+        env.reset(options={"episode": stored, "frame": 5})
+    assert caught.value.hint.startswith("Session().run('reach_target', variation='colour=")
+    cure = caught.value.hint.partition(", with")[0]
+    episode = eval(cure, {"Session": stampede.Session})
+    seen, _ = env.reset(options={"episode": episode, "frame": 5})
+    assert np.array_equal(seen["joint_positions"], stored.arrays("joint_positions")["joint_positions"][5])
+    with pytest.raises(_core.Error, match="'episode' is no stampede.Episode, but 1"):
+        env.reset(options={"episode": 1})
+
+
+def test_actions_are_pickled_and_what_cannot_be_says_what_to_do_instead():
+    for action in (
+        stampede.Action("hold", frames=3),
+        stampede.Action("joint_delta", [0.01] * 7, gripper=0.04, controller="joint_impedance"),
+        stampede.Action("tool_delta", np.zeros(6), frame="tool"),
+        stampede.Action.skill_call("pick", ["cup", "table"], {"height": 0.2}, "joint_impedance", 5),
+    ):
+        for again in (pickle.loads(pickle.dumps(action)), copy.copy(action), copy.deepcopy([action])[0]):
+            assert again == action and again is not action
+    session = stampede.Session()
+    episode = session.run("reach_target", seed=1)
+    world = session.environment("reach_target")
+    world.reset()
+    for one in (episode, session.arrays(episode), session, world, world.save(), stampede.Reset(seed=1)):
+        with pytest.raises(TypeError, match=rf"cannot pickle or copy {type(one).__name__}\(.*\n    \w+"):
+            pickle.dumps(one)
 
 
 def test_a_closed_environment_says_so():

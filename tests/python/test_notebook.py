@@ -48,11 +48,40 @@ def test_objects_say_what_they_are(demos: Path) -> None:
     assert repr(dataset) == f"FrameDataset({arrays.frames} windows of 2 of 1 episodes: joint_positions)"
     world.reset()
     state = session.state(session.run("reach_target", seed=3), 0)
-    for answer in (world.step(stampede.Action("hold", frames=2)), world.skills()[0], world.spaces()[0], state):
+    env = stampede.Env("reach_target")
+    env.reset(seed=1)
+    assert repr(env.save()) == f"SavedEpisode(reach_target {env.reset(seed=1)[1]['variation']}, seed 1)"
+    saved = world.save()
+    for answer in (world.step(stampede.Action("hold", frames=2)), world.skills()[0], world.spaces()[0], state, saved):
         assert " object at 0x" not in repr(answer)
     table = catalogue.query("SELECT '<b>' AS \"a&b\"")._repr_html_()
     assert table == "<table><tr><th>a&amp;b</th></tr><tr><td>&lt;b&gt;</td></tr></table>"
     assert "<td>reach_target</td>" in evaluation._repr_html_()
+
+
+def test_notebooks_show_what_objects_are(demos: Path) -> None:
+    catalogue = stampede.Catalogue(demos)
+    episode, session = catalogue[1], stampede.Session()
+    assert catalogue._repr_html_() == (
+        "<table><tr><th>task</th><th>episodes</th><th>successful</th></tr>"
+        f"<tr><td>reach_target</td><td>1</td><td>1</td></tr></table><p>Catalogue(&#x27;{demos}&#x27;): 1 episodes</p>"
+    )
+    shown = episode._repr_html_()
+    assert "<tr><th>seed</th><td>3</td></tr>" in shown and "<tr><th>end</th><td>success</td></tr>" in shown
+    assert f"<td>{episode.instructions()[0]}</td>" in shown
+    arrays = episode.arrays("joint_positions")._repr_html_()
+    assert f"<tr><td>joint_positions</td><td>{episode.frames} x 7</td><td>rad</td>" in arrays
+    assert session._repr_html_() == (
+        "<table><tr><th>session</th><td>Session()</td></tr>"
+        f"<tr><th>tasks</th><td>{len(session.tasks())}</td></tr></table>"
+    )
+    env = stampede.Env("reach_target", observations=["joint_positions", "gripper_open"])
+    assert env._repr_html_().startswith(
+        "<table><tr><th></th><th>space</th></tr><tr><td>action</td><td>8 float32</td></tr>"
+        "<tr><td>gripper_open</td><td>1 float64</td></tr><tr><td>joint_positions</td><td>7 float64</td></tr></table>"
+    )
+    assert "choices</td>" in stampede.SkillEnv("reach_target")._repr_html_()
+    assert "<td>action</td><td>2 x 8 float32</td>" in stampede.VectorEnv("reach_target", 2)._repr_html_()
 
 
 def test_errors_are_early_and_in_pythons_words(demos: Path) -> None:

@@ -76,6 +76,39 @@ def test_a_second_thread_is_refused(kind: str) -> None:
     assert all(USING in str(one) or "reset() first" in str(one) for one in raised)
 
 
+@pytest.mark.parametrize("kind", ["Env", "SkillEnv", "VectorEnv"])
+def test_to_close_what_another_thread_uses_is_refused_and_harmless(kind: str) -> None:
+    more = {"num_envs": 2, "threads": 2} if kind == "VectorEnv" else {}
+    env = getattr(stampede, kind)("reach_target", **more)
+    raised: list[BaseException] = []
+    stop = threading.Event()
+
+    def use() -> None:
+        try:
+            while not stop.is_set():
+                env.reset(seed=1)
+        except BaseException as error:  # noqa: BLE001
+            raised.append(error)
+
+    thread = threading.Thread(target=use)
+    thread.start()
+    refused = 0
+    while refused < 3 and thread.is_alive():
+        try:
+            env.close()
+        except stampede.Error as error:
+            refused += 1
+            assert f"{kind}.close: {USING}" in str(error)
+    stop.set()
+    thread.join()
+    env.close()
+    env.close()
+    assert refused == 3 or "closed" in str(raised[0])
+    assert all(isinstance(one, stampede.Error) and "closed" in str(one) for one in raised)
+    with pytest.raises(stampede.Error, match="closed"):
+        env.reset()
+
+
 def test_threads_that_share_a_session_or_a_reader_wait(demos: Path, tmp_path: Path) -> None:
     session = stampede.Session(catalogue=tmp_path / "new.db")
     keys: set[str] = set()

@@ -220,7 +220,8 @@ void bind_steps(nb::module_& module) {
                (s.rest.refusal ? ", refused" : "") + (s.rest.terminated ? ", terminated" : "") +
                (s.rest.truncated ? ", truncated" : "") + ")";
       });
-  nb::class_<SavedState>(module, "SavedState", "A moment to which an environment of the same start can go back.");
+  nb::class_<SavedState>(module, "SavedState", "A moment to which an environment of the same start can go back.")
+      .def("__repr__", [](const SavedState&) { return "SavedState(a moment of an episode)"; });
 }
 
 void bind_results(nb::module_& module) {

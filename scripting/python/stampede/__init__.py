@@ -41,6 +41,7 @@ from stampede._core import (
     __version__,
     plan_pddl,
 )
+from stampede import pickling, shown
 from stampede.catalogue import Catalogue, StoredEpisode, Table
 from stampede.registration import register_tasks
 
@@ -110,3 +111,5 @@ def __getattr__(name: str) -> Any:
 
 
 register_tasks()
+pickling.register()
+shown.register()

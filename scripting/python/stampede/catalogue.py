@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import os
 import threading
 from collections.abc import Iterator, Sequence
@@ -14,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from stampede import _core
+from stampede import _core, shown
 from stampede._core import EpisodeArrays, Segment
 from stampede.faults import fault, unknown
 
@@ -83,13 +82,8 @@ class Table:
 
     def _repr_html_(self) -> str:
         """The first rows, for notebooks."""
-
-        def row(cells: Sequence[object], kind: str) -> str:
-            return "<tr>" + "".join(f"<{kind}>{html.escape(str(cell))}</{kind}>" for cell in cells) + "</tr>"
-
-        rows = [row(self.columns, "th"), *(row(cells, "td") for cells in self._rows[:_SHOWN_ROWS])]
-        more = f"<p>{len(self)} rows</p>" if len(self) > _SHOWN_ROWS else ""
-        return f"<table>{''.join(rows)}</table>{more}"
+        more = f"{len(self)} rows" if len(self) > _SHOWN_ROWS else ""
+        return shown.table(self.columns, self._rows[:_SHOWN_ROWS], more)
 
 
 @dataclass(frozen=True)
@@ -163,12 +157,26 @@ class StoredEpisode:
         return self.catalogue._reader.picture(self.id, frame, camera, **wanted)
 
     def __repr__(self) -> str:
-        end = "success" if self.success else self.reason
+        end = self._end
         return f"StoredEpisode({self.id}: {self.task} {self.variation}, seed {self.seed}, {end}, {self.frames} frames)"
+
+    @property
+    def _end(self) -> str:
+        return "success" if self.success else self.reason
+
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+        facts = {"episode": self.id, "task": self.task, "variation": self.variation, "seed": self.seed}
+        facts |= {"split": self.split, "end": self._end, "frames": f"{self.frames}, {self.frame_hz:g} a second"}
+        return shown.about(facts | {"instruction": next(iter(self.instructions()), "")})
 
 
 _HEADS = """SELECT episode, task, variation, seed, split, outcome = 'success', reason, frames, frame_hz, duration_s
 FROM episodes"""
+
+
+_TASKS = """SELECT task, count(*) AS episodes, sum(outcome = 'success') AS successful FROM episodes
+GROUP BY task ORDER BY task"""
 
 
 class Catalogue:
@@ -234,6 +242,11 @@ class Catalogue:
 
     def __repr__(self) -> str:
         return f"Catalogue({', '.join(repr(str(path)) for path in self.paths)})"
+
+    def _repr_html_(self) -> str:
+        """Its tasks, for notebooks."""
+        tasks = self.query(_TASKS)
+        return shown.table(tasks.columns, tasks._rows, f"{self!r}: {len(self)} episodes")
 
 
 def _optional(module: str) -> Any:

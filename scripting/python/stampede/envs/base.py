@@ -10,7 +10,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 
-from stampede import _core
+from stampede import _core, shown
 
 from .account import EpisodeAccount, Verdict, skill_text
 from .alone import alone
@@ -71,6 +71,10 @@ class SavedEpisode:
     state: _core.SavedState
     start: Start
     motionless: int
+    task: str
+
+    def __repr__(self) -> str:
+        return f"SavedEpisode({self.task} {self.start.variation}, seed {self.start.seed})"
 
 
 def made_again(kind: type, task: str, arguments: Mapping[str, Any]) -> Any:
@@ -85,6 +89,18 @@ def shown_arguments(arguments: Mapping[str, Any], kind: type) -> str:
         for name, value in arguments.items()
         if name not in usual or usual[name].default != value
     )
+
+
+def spaces_shown(env: Any) -> str:
+    """What an environment, or several, take and give, as HTML."""
+    rows = [("action", env.action_space), *env.observation_space.spaces.items()]
+    return shown.table(("", "space"), [(name, _space_text(space)) for name, space in rows], repr(env))
+
+
+def _space_text(space: gymnasium.Space[Any]) -> str:
+    if isinstance(space, gymnasium.spaces.Discrete):
+        return f"{space.n} choices"
+    return f"{' x '.join(map(str, space.shape or ())) or 1} {space.dtype}"
 
 
 class EpisodeEnv(gymnasium.Env[Observation, Any]):
@@ -132,6 +148,10 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.task!r}{shown_arguments(self.arguments, type(self))})"
+
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+        return spaces_shown(self)
 
     @property
     def session(self) -> _core.Session:
@@ -195,12 +215,14 @@ class EpisodeEnv(gymnasium.Env[Observation, Any]):
         """This moment, between two steps. What follows a save and a restore is equal, bit for bit."""
         self._check_begun("save")
         assert self._start is not None
-        return SavedEpisode(self._environment.save(), self._start, self._account.motionless)
+        return SavedEpisode(self._environment.save(), self._start, self._account.motionless, self.task)
 
     @alone
     def restore(self, saved: SavedEpisode) -> tuple[Observation, dict[str, Any]]:
         """Goes to a moment of an episode of the same task, whatever start is under way; gives what reset gives, there."""
         self._check_open("restore")
+        if not isinstance(saved, SavedEpisode):
+            raise fault(f"{type(self).__name__}.restore", f"{saved!r} is no saved moment", "give what save() returned")
         if self._account.begun and self._start == saved.start and not self._kept:
             raw = self._environment.restore(saved.state)
             return self._codec(raw), self._account.go_back(raw, saved.motionless)

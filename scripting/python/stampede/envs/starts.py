@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from stampede import _core
-
+from stampede.catalogue import StoredEpisode
 from stampede.faults import fault, unknown
 
 SPLIT_SEEDS = 1_000_000  # seeds from here up are of the test split
@@ -15,6 +15,16 @@ OPTIONS = ("variation", "seed", "where", "goal", "perturb", "randomise", "episod
 _TRIES = 10
 
 Answer = TypeVar("Answer")
+
+
+def _check_episode(episode: Any) -> None:
+    if isinstance(episode, _core.Episode):
+        return
+    cure = "give what Session.run returns"
+    if isinstance(episode, StoredEpisode):
+        made = f"run({episode.task!r}, variation={episode.variation!r}, seed={episode.seed})"
+        cure = f"Session().{made}, with its other options, makes it again, bit for bit"
+    raise fault("reset(options=)", f"'episode' is no stampede.Episode, but {episode!r}", cure)
 
 
 @dataclass(frozen=True)
@@ -71,6 +81,7 @@ class Starts:
                 raise unknown("reset(options=)", "option", name, OPTIONS)
         episode = options.get("episode")
         if episode is not None:
+            _check_episode(episode)
             request = _core.Reset(episode=episode, frame=int(options.get("frame", 0)))
             return Start(request, episode.variation, episode.seed, drawn=False)
         if "frame" in options:

@@ -15,7 +15,7 @@ from stampede import _core
 
 from .account import EpisodeAccount
 from .alone import alone
-from .base import Settings, made_again, shown_arguments
+from .base import Settings, made_again, shown_arguments, spaces_shown
 from .env import OBSERVATIONS
 from stampede.faults import fault, unknown
 from .sessions import shared_session
@@ -107,6 +107,10 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.task!r}{shown_arguments(self._arguments, type(self))})"
 
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+        return spaces_shown(self)
+
     @property
     def action_names(self) -> list[str]:
         """Of the components of an action of one environment."""
@@ -194,6 +198,11 @@ class VectorEnv(GymnasiumVectorEnv[Observation, np.ndarray, np.ndarray]):
         """Of each environment: every ground skill of the scene, with what can be done now."""
         self._check_begun("skills")
         return tuple(self._group.skills(i) for i in range(self.num_envs))
+
+    @alone
+    def close(self, **further: Any) -> None:
+        """Lets go of engine and session. Any use from now on raises stampede.Error."""
+        super().close(**further)
 
     def close_extras(self, **_: Any) -> None:
         """Lets go of the engine's environments and threads."""
