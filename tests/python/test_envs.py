@@ -359,6 +359,14 @@ def test_of_a_stored_episode_it_is_said_how_to_begin_in_it(tmp_path):
         env.reset(options={"episode": 1})
 
 
+def test_options_of_another_type_are_told():
+    env = Env("reach_target")
+    for name, value in (("variation", 5), ("seed", "7"), ("seed", 1.5), ("goal", None), ("frame", None)):
+        with pytest.raises(_core.Error, match=rf"'{name}' cannot be {value!r}"):
+            env.reset(options={name: value})
+    assert env.reset(options={"seed": np.int64(7)})[1]["seed"] == 7
+
+
 def test_actions_are_pickled_and_what_cannot_be_says_what_to_do_instead():
     for action in (
         stampede.Action("hold", frames=3),

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from numbers import Integral
 from typing import Any, TypeVar
 
 import numpy as np
@@ -12,6 +13,7 @@ from stampede.faults import fault, unknown
 
 SPLIT_SEEDS = 1_000_000  # seeds from here up are of the test split
 OPTIONS = ("variation", "seed", "where", "goal", "perturb", "randomise", "episode", "frame")
+_TEXTS = ("variation", "where", "goal", "perturb")
 _TRIES = 10
 
 Answer = TypeVar("Answer")
@@ -76,9 +78,13 @@ class Starts:
         seed: as of `reset`; the engine's is its remainder, so that seed 7 is `stampede run --seed 7`, and 1'000'007
         in the test split. None: drawn from `random`. options: see OPTIONS; they come before anything drawn.
         """
-        for name in options:
+        for name, value in options.items():
             if name not in OPTIONS:
                 raise unknown("reset(options=)", "option", name, OPTIONS)
+            kind = Integral if name in ("seed", "frame") else str if name in _TEXTS else object
+            if not isinstance(value, kind) and (name, value) != ("variation", None):  # any of the task's
+                cure = "give a text" if kind is str else "give a whole number"
+                raise fault("reset(options=)", f"'{name}' cannot be {value!r}", cure)
         episode = options.get("episode")
         if episode is not None:
             _check_episode(episode)

@@ -17,10 +17,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
+from stampede import files
 from stampede.catalogue import Catalogue, StoredEpisode
 from stampede.export import steps
 from stampede.faults import fault, unknown
-from stampede.files import make_folder, plain_file
 
 FORMATS = {
     "robomimic": "HDF5 of robomimic (arXiv:2108.03298), which robosuite and many trainers read",
@@ -225,7 +225,7 @@ def _begun(folder: Path, options: argparse.Namespace, catalogue: Catalogue) -> l
 
 def _manifest_in(folder: Path) -> tuple[Any, list[list[Any]]]:
     """What an export was asked for, and number and key of its episodes. Raises Error where it does not say that."""
-    file = plain_file(folder / _MANIFEST)
+    file = files.plain_file(folder / _MANIFEST)
     try:
         manifest = json.loads(file.read_text())
         return manifest["options"], [[int(number), str(key)] for number, key in manifest["episodes"]]
@@ -236,7 +236,7 @@ def _manifest_in(folder: Path) -> tuple[Any, list[list[Any]]]:
 
 def _begin(folder: Path, options: argparse.Namespace, episodes: Sequence[StoredEpisode]) -> None:
     """Notes what the export is of: the same command goes on with these episodes, whatever comes to the catalogue."""
-    make_folder(folder)
+    files.make_folder(folder)
     manifest = {"options": _asked(options), "episodes": _keys(episodes[0].catalogue, episodes)}
     partial = folder / f"{_MANIFEST}.part"
     partial.write_text(json.dumps(manifest, indent=1))
