@@ -152,6 +152,7 @@ FLAT = "obs/robot0_gripper_qpos"
         (set_attribute("ep_meta", "[1]", DEMO), "attribute ep_meta", "it is JSON, but no object"),
         (set_attribute("ep_meta", '{"segments": [{}]}', DEMO), "attribute ep_meta", "its segments are not as"),
         (set_attribute("ep_meta", '{"lang": 5}', DEMO), "attribute ep_meta", "5 is no sentence"),
+        (set_attribute("ep_meta", '{"success": "so so"}', DEMO), "ep_meta, success", "says neither yes nor no"),
         (set_attribute("problem_info", "[1]"), "attribute problem_info", "it is JSON, but no object"),
         (put("obs/robot0_joint_vel", np.zeros((3, 7))), "robot0_joint_vel", "it has 3 rows, and there are 4 steps"),
         (put("obs/robot0_joint_vel", np.zeros((4, 6))), "robot0_joint_vel", "7 numbers are expected"),
@@ -193,6 +194,17 @@ def test_what_droid_says_of_success(tmp_path: Path, said: Any, outcome: str) -> 
     with h5py.File(source, "w") as file:
         file["observation/robot_state/joint_positions"] = HOME + np.zeros((STEPS, 1))
         file.attrs["success"] = said
+    (out,) = run(source)
+    assert json.loads((out / "recording.json").read_text())["outcome"] == outcome
+
+
+@pytest.mark.parametrize(
+    ("said", "outcome"), [(False, "failure"), (0, "failure"), ("false", "failure"), (1, "success")]
+)
+def test_what_robomimic_says_of_success(tmp_path: Path, said: Any, outcome: str) -> None:
+    source = write(tmp_path)
+    with h5py.File(source, "a") as file:
+        file[DEMO].attrs["ep_meta"] = json.dumps({"success": said})
     (out,) = run(source)
     assert json.loads((out / "recording.json").read_text())["outcome"] == outcome
 

@@ -58,7 +58,7 @@ def numbers(group: Any, key: str, place: str, rows: int | None = None, columns: 
     """A dataset of numbers, float64. rows, columns: that it must have; columns 0: those it has, laid flat. Raises
     Error, with the key, for another."""
     place = f"{place}, {key}"
-    there = group.get(key)
+    there = group.get(key) if hasattr(group, "keys") else None
     if there is None:
         raise fault(place, "it is not there", "record it, or name another file")
     shape = getattr(there, "shape", None)
@@ -83,6 +83,15 @@ def attribute(of: Any, key: str, place: str) -> Any:
     if value is not None and not isinstance(value, str | bool | int | float):
         raise fault(f"{place}, attribute {key}", "it is no number and no text", "write one value, or leave it out")
     return value
+
+
+def truth(said: Any, place: str) -> bool:
+    """Of a truth value, a number, or a word: whatever wrote the file has its own. Raises Error for another."""
+    known = {"true": True, "1": True, "success": True, "false": False, "0": False, "failure": False}
+    word = str(said).lower().removesuffix(".0")
+    if word not in known:
+        raise fault(place, f"{said!r} says neither yes nor no", "write true or false")
+    return known[word]
 
 
 def described(of: Any, key: str, place: str) -> Json:

@@ -20,7 +20,7 @@ from stampede.faults import fault
 from stampede.recordings import rows as steps
 from stampede.recordings.folder import FolderWriter
 from stampede.recordings.given import Given
-from stampede.recordings.hdf5 import attribute, described, numbers, opened
+from stampede.recordings.hdf5 import attribute, described, numbers, opened, truth
 from stampede.recordings.pictures import packed
 from stampede.recordings.roles import camera_name
 from stampede.recordings.rows import Rows
@@ -102,7 +102,8 @@ def _write(folder: FolderWriter, data: Any, name: str, given: Given, options: ar
         elif key.endswith("_depth"):
             files = _depths(demo["obs"][key], rows, f"{place}, {key}")
             steps.write_pictures(folder, "depth", camera, files, f"{place}, {key}", unit_m=0.001, near_m=0.1, far_m=6.5)
-    about = {"task": meta.get("task") or "", "success": str(meta.get("success", True)), "frame_hz": rate}
+    success = truth(meta.get("success", True), f"{place}, attribute ep_meta, success")
+    about = {"task": meta.get("task") or "", "success": str(success), "frame_hz": rate}
     steps.finish(folder, given, rows, about, f"{options.source}, {name}")
 
 
@@ -216,11 +217,7 @@ def _droid_success(file: Any, source: str) -> bool:
     said = attribute(file, "success", source)
     if said is None:
         return "success" in Path(source).parts
-    known = {"true": True, "1": True, "success": True, "false": False, "0": False, "failure": False}
-    word = str(said).lower()
-    if word not in known:
-        raise fault(f"{source}, attribute success", f"{said!r} says neither yes nor no", "write true or false")
-    return known[word]
+    return truth(said, f"{source}, attribute success")
 
 
 def _droid_stamps(file: Any, count: int, options: argparse.Namespace) -> list[int]:
