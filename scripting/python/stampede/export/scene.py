@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from stampede.catalogue import Catalogue, StoredEpisode
-from stampede.export.steps import Array
-
-Json = dict[str, Any]
+from stampede.catalogue import StoredEpisode
+from stampede.export.steps import Array, Json, stored_scene
 
 
 @dataclass(frozen=True)
@@ -37,16 +34,10 @@ class Part:
 
 
 def parts_of(episode: StoredEpisode) -> list[Part]:
-    """Things first, then the robot, each part after its parent; none of an episode without a scene, a real one.
-
-    The scene's document is in a table of the catalogue that no view shows.
-    """
-    rows = episode.catalogue.query(
-        "SELECT document FROM scene WHERE hash = (SELECT scene FROM episodes WHERE episode = ?1)", episode.id
-    )
-    if not len(rows):
+    """Things first, then the robot, each part after its parent; none of an episode without a scene, a real one."""
+    scene = stored_scene(episode)
+    if scene is None:
         return []
-    scene = _whole(json.loads(str(rows.values("document")[0])), episode.catalogue)
     things = [part for body in scene["bodies"] for part in _parts(body, body["name"])]
     robot = scene["robot"]["body"]
     return things + _parts(robot, f"{robot['name']}.{robot['parts'][0]['name']}")
@@ -73,18 +64,6 @@ def pose_of(transform: Json) -> Array:
     """7: m, quaternion x y z w, of a transform in a document."""
     rotation = np.reshape(transform["rotation"], (3, 3))
     return np.concatenate([transform["origin"], quaternion(rotation)])
-
-
-def _whole(json_: Any, catalogue: Catalogue) -> Any:
-    """A document with its shared parts put in."""
-    if isinstance(json_, list):
-        return [_whole(one, catalogue) for one in json_]
-    if not isinstance(json_, dict):
-        return json_
-    if "$asset" not in json_:
-        return {name: _whole(one, catalogue) for name, one in json_.items()}
-    rows = catalogue.query("SELECT body FROM asset WHERE hash = ?1", json_["$asset"])
-    return json.loads(str(rows.values("body")[0]))
 
 
 def _parts(body: Json, base: str) -> list[Part]:

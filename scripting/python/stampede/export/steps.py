@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stampede._core import EpisodeArrays, Segment
-from stampede.catalogue import StoredEpisode
+from stampede.catalogue import Catalogue, StoredEpisode
 from stampede.faults import fault
 
 Array = NDArray[Any]
+Json = dict[str, Any]
 
 ACTIONS = ("joint_delta", "joint_position", "tool_delta")
 
@@ -125,18 +126,32 @@ def check_names(episode: StoredEpisode, names: Mapping[str, list[str]], first: M
             )
 
 
+def stored_scene(episode: StoredEpisode) -> Json | None:
+    """The scene's document, which is in a table of the catalogue that no view shows; None: it has none, a real one."""
+    rows = episode.catalogue.query(
+        "SELECT document FROM scene WHERE hash = (SELECT scene FROM episodes WHERE episode = ?1)", episode.id
+    )
+    return _whole(json.loads(str(rows.values("document")[0])), episode.catalogue) if len(rows) else None
+
+
+def _whole(json_: Any, catalogue: Catalogue) -> Any:
+    """A document with the parts put in that it shares with others."""
+    if isinstance(json_, list):
+        return [_whole(one, catalogue) for one in json_]
+    if not isinstance(json_, dict):
+        return json_
+    if "$asset" not in json_:
+        return {name: _whole(one, catalogue) for name, one in json_.items()}
+    rows = catalogue.query("SELECT body FROM asset WHERE hash = ?1", json_["$asset"])
+    return json.loads(str(rows.values("body")[0]))
+
+
 def _limits_of(episode: StoredEpisode) -> tuple[Array, float]:
     """The greatest speeds of the arm's joints, rad/s, and opening of the hand, m: of the robot that the episode has."""
-    rows = episode.catalogue.query(
-        "SELECT document -> '$.robot' AS robot FROM scene WHERE hash = (SELECT scene FROM episodes WHERE episode = ?1)",
-        episode.id,
-    )
-    if not len(rows):
+    scene = stored_scene(episode)
+    if scene is None:
         raise fault(f"episode {episode.id}", "its robot is not stored with it", "mcap needs no limits of joints")
-    robot = json.loads(str(rows.values("robot")[0]))
-    if "$asset" in robot:  # what several scenes have in common lies beside them
-        rows = episode.catalogue.query("SELECT body FROM asset WHERE hash = ?1", robot["$asset"])
-        robot = json.loads(str(rows.values("body")[0]))
+    robot = scene["robot"]
     return np.array([one["velocity"] for one in robot["limits"]]), float(robot["opening_max"])
 
 
