@@ -171,7 +171,7 @@ void Acting::begin_hold(StepResult& result) {
   track.here();
   running.what = Running::What::hold;
   running.name = "hold";
-  running.watch = track.watch_goal();
+  running.watch = track.watch_goal(std::max<std::int64_t>(held, 0));
 }
 
 void Acting::advance() { over = rollout.advance(); }
@@ -207,12 +207,16 @@ void Acting::close_control() {
   if (!rollout.keeps_record()) track.forget();
 }
 
-// At a frame at which no skill runs: the goal must hold for the task's `hold_s`.
+// At a frame at which no skill runs.
 void Acting::look_at_goal() {
   if (over != Reason::none || !rollout.at_frame()) return;
   held = rollout.goal_holds() ? held + 1 : -1;
-  const double wanted = std::ceil(rollout.task().hold_s * rollout.view().scene().frame_hz - 1e-9);
-  if (held >= static_cast<std::int64_t>(wanted)) success = true;
+  if (running.what != Running::What::path) judge();  // a path is followed to its end, or as far as was asked
+}
+
+// The goal must hold for the task's `hold_s`.
+void Acting::judge() {
+  if (over == Reason::none && held >= track.hold_frames()) success = true;
 }
 
 // Ticks what is running: to its end, or for so many frames.
@@ -225,9 +229,14 @@ void Acting::go_on(int frames, StepResult& result) {
       tick(result);  // it learns that the episode has ended
       break;
     }
-    if (rollout.at_frame()) ++count;
+    if (!rollout.at_frame()) continue;
+    ++count;
+    if (running.what == Running::What::path) look_at_goal();
   }
+  if (running.what == Running::What::hold) tick(result);  // its last frame may be the one that was missing
   to_frame();
+  if (running.what != Running::What::skill) judge();
+  if (success) end_running(result, "the goal has held long enough");
 }
 
 // False: it is over.
@@ -240,6 +249,7 @@ bool Acting::tick(StepResult& result) {
   if (running.what == Running::What::hold) {
     if (running.watch->tick() == SkillStatus::running) return true;
     const SkillResult how = running.watch->result();
+    held = running.watch->held();
     track.end_goal(how, skills);
     if (how.ok()) success = true;
     result.ended.push_back({"hold", {}, how.ok(), std::string(to_string(how.reason)), how.detail, {}, {}, {}});
@@ -271,10 +281,8 @@ void Acting::path_over(StepResult& result, const SkillResult& how) {
   rollout.close_segment(running.segment, how.reason, how.detail);
   result.ended.push_back({running.name, {}, how.ok(), std::string(to_string(how.reason)), how.detail, {}, {}, {}});
   running = {};
-  held = -1;
   if (how.reason == Reason::dropped) rollout.keep.reset();
   if (!rollout.keeps_record()) track.forget();
-  look_at_goal();
 }
 
 void Acting::end_running(StepResult& result, const std::string& why) {
@@ -286,6 +294,7 @@ void Acting::end_running(StepResult& result, const std::string& why) {
     path_over(result, {Reason::interrupted, why});
   } else if (running.what == Running::What::hold) {
     running.watch->interrupt(why);
+    held = running.watch->held();
     track.end_goal(running.watch->result(), skills);
     result.ended.push_back({"hold", {}, false, "interrupted", why, {}, {}, {}});
     running = {};

@@ -75,6 +75,7 @@ struct Acting : ActingPlace {
   void path_over(StepResult& result, const SkillResult& how);
   void look_at_hand();
   void look_at_goal();
+  void judge();
   void open_control();
   void close_control();
 };

@@ -2,22 +2,22 @@
 
 namespace stampede {
 
-GoalWatch::GoalWatch(Rollout& rollout, std::int64_t patience, std::int64_t hold, int parent_segment)
-    : rollout_(rollout), patience_(patience), hold_(hold) {
+GoalWatch::GoalWatch(Rollout& rollout, std::int64_t patience, std::int64_t hold, std::int64_t held, int parent_segment)
+    : rollout_(rollout), patience_(patience), hold_(hold), held_(held), looked_(rollout.step()) {
   result_.segment = rollout.open_motion(kHold, parent_segment);
   seen_ = rollout_.at_frame() && rollout_.goal_holds();
 }
 
 SkillStatus GoalWatch::tick() {
   if (over_) return result_.ok() ? SkillStatus::done : SkillStatus::failed;
-  if (step_asked_) {
+  if (rollout_.step() != looked_) {
+    looked_ = rollout_.step();
     if (const Reason reason = rollout_.ended(); reason != Reason::none)
       return finish({reason, std::string(describe(reason)), true});
     if (rollout_.at_frame() && !look())
       return finish({Reason::goal_unstable, std::string(describe(Reason::goal_unstable))});
   }
-  step_asked_ = seen_ ? held_ < hold_ : frames_ < patience_;
-  if (step_asked_) return SkillStatus::running;
+  if (seen_ ? held_ < hold_ : frames_ < patience_) return SkillStatus::running;
   return finish(seen_ ? SkillResult{} : SkillResult{Reason::goal_false, rollout_.unmet_goal()});
 }
 

@@ -9,14 +9,15 @@ namespace stampede {
 inline constexpr const char* kHold = "hold";  // the motion's name
 
 // Ticked like a skill's call; nobody planned it, so it is no skill but one motion segment, `hold`. Waits until the goal
-// holds (`patience` frames at most, else goal_false) and then for `hold` frames more, through which it must stay true
-// (else goal_unstable).
+// holds (`patience` frames at most, else goal_false) and then until it has held for `hold` frames, through which it
+// must stay true (else goal_unstable); `held` of them have gone by already.
 class GoalWatch {
  public:
-  GoalWatch(Rollout& rollout, std::int64_t patience, std::int64_t hold, int parent_segment);
-  SkillStatus tick();
+  GoalWatch(Rollout& rollout, std::int64_t patience, std::int64_t hold, std::int64_t held, int parent_segment);
+  SkillStatus tick();                                    // again without a step between: the same answer
   void interrupt(const std::string& why);                // between two ticks: it is over
   const SkillResult& result() const { return result_; }  // once it is over
+  std::int64_t held() const { return seen_ ? held_ : -1; }
 
  private:
   bool look();
@@ -24,8 +25,8 @@ class GoalWatch {
 
   Rollout& rollout_;
   std::int64_t patience_, hold_;
-  std::int64_t frames_ = 0, held_ = 0;
-  bool step_asked_ = false, over_ = false;
+  std::int64_t frames_ = 0, held_, looked_;
+  bool over_ = false;
   bool seen_;  // the goal held at the last frame
   SkillResult result_;
 };

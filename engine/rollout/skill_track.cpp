@@ -52,14 +52,14 @@ void SkillTrack::advance_subgoals() {
   }
 }
 
-std::unique_ptr<GoalWatch> SkillTrack::watch_goal() {
-  return std::make_unique<GoalWatch>(rollout_, frames(kGoalPatience), frames(rollout_.task().hold_s), subgoal_segment_);
+std::unique_ptr<GoalWatch> SkillTrack::watch_goal(std::int64_t held) {
+  return std::make_unique<GoalWatch>(rollout_, frames(kGoalPatience), hold_frames(), held, subgoal_segment_);
 }
 
 void SkillTrack::end_goal(const SkillResult& result, std::size_t position) { remember(result.segment, position); }
 
 SkillResult SkillTrack::finish_goal(std::size_t position) {
-  const std::unique_ptr<GoalWatch> watch = watch_goal();
+  const std::unique_ptr<GoalWatch> watch = watch_goal(0);
   const SkillResult result = run_to_end(*watch, rollout_);
   end_goal(result, position);
   return result;
@@ -94,6 +94,8 @@ void SkillTrack::close(const SkillResult& verdict) {
   }
   rollout_.close_segment(subgoal_segment_, verdict.reason, verdict.detail);
 }
+
+std::int64_t SkillTrack::hold_frames() const { return frames(rollout_.task().hold_s); }
 
 std::int64_t SkillTrack::frames(double seconds) const {
   return std::llround(std::ceil(seconds * rollout_.view().scene().frame_hz - 1e-9));

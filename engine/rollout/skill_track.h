@@ -31,7 +31,8 @@ class SkillTrack {
 
   // Stands still for the verdict, as if it were the step after the last.
   SkillResult finish_goal(std::size_t position);
-  std::unique_ptr<GoalWatch> watch_goal();  // the same in parts
+  std::unique_ptr<GoalWatch> watch_goal(std::int64_t held);  // the same in parts; the goal has held for so many frames
+  std::int64_t hold_frames() const;                          // for so many it must hold
   void end_goal(const SkillResult& result, std::size_t position);
   void advance_subgoals();  // to the first one that does not hold
   int subgoal_segment() const { return subgoal_segment_; }

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <thread>
 
@@ -294,6 +295,61 @@ TEST_CASE("the actions that are stored with a demo do its task again, a frame ea
     CAPTURE(played.why);
     CHECK(played.success);
     CHECK(played.force < 100);
+  }
+}
+
+TEST_CASE("the goal must hold for as many frames, however an agent waits for it") {
+  const auto pose = [](const StepResult& now) { return now.observation["gripper_pose"].reals(); };
+  const auto hold = [](int frames) {
+    return [frames](const StepResult&) { return AgentAction{.space = "hold", .frames = frames}; };
+  };
+  const auto path = [&](int frames) {
+    return [&pose, frames](const StepResult& now) {
+      std::vector<double> there = pose(now);
+      there[2] = there[2] < 0.85 ? 0.9 : 0.8;
+      return AgentAction{.space = "tool_path", .values = there, .frames = frames};
+    };
+  };
+  const auto either = [](const StepResult& now) {
+    if (now.frames == 3) return AgentAction{.space = "gripper", .values = {0.08}};
+    return AgentAction{.space = "hold", .frames = 3};
+  };
+  const auto on = [](const StepResult& now) {
+    return AgentAction{.space = now.running.empty() ? "hold" : "go_on", .frames = 4};
+  };
+  struct Way {
+    std::string name;
+    std::function<AgentAction(const StepResult&)> act;
+    int most = 20;
+  };
+  const Environment drawn = environment("lamp_on");
+  REQUIRE(drawn.frame_hz() == 20);
+  for (const Way& way : std::vector<Way>{{"hold", hold(0)},
+                                         {"a frame", hold(1)},
+                                         {"some frames", hold(3), 21},
+                                         {"all frames", hold(20)},
+                                         {"more frames", hold(40)},
+                                         {"a hand and some frames", either},
+                                         {"on and on", on},
+                                         {"a path, cut off", path(2)},
+                                         {"a path", path(0), 60}}) {
+    CAPTURE(way.name);
+    Environment world = environment("lamp_on", {.channels = {"gripper_pose"}, .record = true});
+    world.reset({.seed = 5});
+    StepResult now = world.step({.space = "skill", .skill = "press", .arguments = {"lamp.button", "panda.hand"}});
+    REQUIRE(now.ended.front().success);
+    std::int64_t frames = 0;
+    while (!now.terminated && frames < 100) {
+      now = world.step(way.act(now));
+      CAPTURE(now.refusal ? now.refusal->what : "");
+      REQUIRE_FALSE(now.refusal);
+      frames += now.frames;
+    }
+    CHECK(now.success);
+    CHECK(now.running.empty());
+    CHECK(frames >= 20);
+    CHECK(frames <= way.most);
+    CHECK(world.episode().outcome == Outcome::success);
   }
 }
 
