@@ -93,6 +93,10 @@ Files files_below(const fs::path& folder) {
   return files;
 }
 
+std::int64_t own_tables_in(const sql::Database& database) {
+  return database.number("SELECT count(*) FROM main.sqlite_master WHERE type = 'table' AND name GLOB 'own_lake_*'");
+}
+
 constexpr const char* kOwnTables =
     "CREATE TABLE IF NOT EXISTS own_lake_file (id INTEGER PRIMARY KEY, path TEXT NOT NULL UNIQUE, size INTEGER NOT "
     "NULL,"
@@ -100,6 +104,16 @@ constexpr const char* kOwnTables =
     "CREATE TABLE IF NOT EXISTS own_lake_episode (episode INTEGER PRIMARY KEY, file INTEGER NOT NULL,"
     " there INTEGER NOT NULL);"
     "CREATE INDEX IF NOT EXISTS own_lake_of_file ON own_lake_episode (file);";
+
+// Nothing is written through another name of it.
+void check_names(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_symlink(path, ignored))
+    throw CatalogueError(path.string(), "this is a link, and nothing is written through it", "remove it");
+  if (fs::exists(path, ignored) && fs::hard_link_count(path, ignored) > 1)
+    throw CatalogueError(path.string(), "this file has another name too, which would be written to",
+                         "remove the name " + path.string());
+}
 
 struct Listed {
   std::int64_t id = 0;
@@ -206,7 +220,12 @@ LakeChange Lake::index(const fs::path& folder, const std::atomic<bool>* stop) {
   if (files.catalogues.empty())
     throw CatalogueError(folder.string(), "there is no catalogue below it",
                          "stampede run TASK --out " + (folder / "part1.db").string());
-  Catalogue index = Catalogue::write(folder / kIndex);
+  const fs::path index_file = folder / kIndex;
+  check_names(index_file);
+  if (!Catalogue::is_new(index_file) && own_tables_in(Catalogue::open(index_file).impl_->database) < 2)
+    throw CatalogueError(index_file.string(), "this is a catalogue, and no index",
+                         "give it another name, or move it away");
+  Catalogue index = Catalogue::write(index_file);
   const sql::Database& database = index.impl_->database;
   database.run("PRAGMA foreign_keys = OFF;");
   database.run(std::string("BEGIN IMMEDIATE;") + kOwnTables + "COMMIT;");
@@ -290,7 +309,9 @@ struct Lake::Impl {
       return open.front().second;
     }
     const auto path = paths.find(file);
-    if (path == paths.end()) refuse((folder / kIndex).string(), "it is damaged: an episode of no file");
+    if (path == paths.end())
+      throw CatalogueError((folder / kIndex).string(), "it is damaged: an episode of no file",
+                           "remove it; `stampede index " + folder.string() + "` makes another");
     open.emplace_front(file, std::make_shared<const Member>(Member{Catalogue::open(path->second)}));
     if (open.size() > kMostOpen) open.pop_back();
     return open.front().second;
@@ -344,8 +365,7 @@ Lake::Lake(const fs::path& folder) {
     throw CatalogueError(folder.string(), "this is a folder, and has no index of the catalogues below it",
                          "`stampede index " + folder.string() + "` makes it; or name files");
   impl_ = std::make_unique<Impl>(folder);
-  if (impl_->database().number("SELECT count(*) FROM main.sqlite_master WHERE name GLOB 'own_lake_*'") < 2)
-    impl_->refuse((folder / kIndex).string(), "it is no index");
+  if (own_tables_in(impl_->database()) < 2) impl_->refuse((folder / kIndex).string(), "it is no index");
   impl_->prepare();
 }
 

@@ -153,6 +153,23 @@ TEST_CASE("a folder that cannot be asked is told of with its cure") {
     fs::remove(run.index);
     fs::copy_file(run.merged, run.index);
     CHECK(says(answer_of_lake(run.lake, "SELECT 1").err, "it is no index"));
+    const std::string before = file_text(run.index);
+    const Said said = say({"index", run.lake});
+    CHECK(said.code == kCatalogue);
+    CHECK(says(said.err, "this is a catalogue, and no index"));
+    CHECK(file_text(run.index) == before);
+  }
+  SECTION("nor is one written that has another name, through a link or without") {
+    const std::string before = file_text(run.merged);
+    for (const bool hard : {false, true}) {
+      fs::remove(run.index);
+      hard ? fs::create_hard_link(run.merged, run.index) : fs::create_symlink(run.merged, run.index);
+      const Said said = say({"index", run.lake});
+      CHECK(said.code == kCatalogue);
+      CHECK(says(said.err, hard ? "another name" : "this is a link"));
+      CHECK(file_text(run.merged) == before);
+      CHECK_FALSE(fs::exists(run.merged + "-wal"));
+    }
   }
   SECTION("nor one whose episodes are of no file") {
     {
@@ -160,6 +177,7 @@ TEST_CASE("a folder that cannot be asked is told of with its cure") {
       index.run("UPDATE own_lake_episode SET file = 77");
     }
     CHECK(says(answer_of_lake(run.lake, "SELECT count(*) FROM frames").err, "it is damaged"));
+    CHECK(says(answer_of_lake(run.lake, "SELECT count(*) FROM frames").err, "remove it"));
     CHECK(answer_of_lake(run.lake, "SELECT file_of(episode) FROM episodes").code != kBug);
   }
   SECTION("nor is one that has lost where an episode is") {
