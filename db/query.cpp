@@ -10,6 +10,7 @@
 #include "db/embedded_sql.h"
 #include "db/read_only.h"
 #include "engine/base/nearest.h"
+#include "engine/base/stopping.h"
 
 namespace stampede {
 namespace {
@@ -22,7 +23,10 @@ using Prepared = std::unique_ptr<sqlite3_stmt, Finalizer>;
 [[noreturn]] void refuse(int code, const std::string& message, const std::string& hint = "") {
   if ((code & 0xff) == SQLITE_AUTH || (code & 0xff) == SQLITE_READONLY)
     throw Error("query", "a query only reads: " + message, "use SELECT; the views are described in db/README.md");
-  if ((code & 0xff) == SQLITE_INTERRUPT) throw Error("query", "interrupted");
+  if ((code & 0xff) == SQLITE_INTERRUPT) {
+    heed_stop();
+    throw Error("query", "interrupted");
+  }
   throw Error("query", message, hint);
 }
 

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/stopping.h"
+
 namespace stampede {
 
 struct Crew {
@@ -29,6 +31,7 @@ void in_order(std::size_t count, const Crew& crew, const Start& start, const Mak
   std::condition_variable moved;
   std::size_t next = 0, turn = 0;
   std::exception_ptr first;
+  const std::atomic<bool>* const stop = crew.stop ? crew.stop : stop_of_this_thread();
   const auto over = [&] { return first || (crew.stop && crew.stop->load()); };
   const auto work = [&] {
     auto worker = start();
@@ -43,6 +46,9 @@ void in_order(std::size_t count, const Crew& crew, const Start& start, const Mak
       std::exception_ptr fault;  // waits for its turn: of two, the first in this order comes out
       try {
         result.emplace(make(worker, i));
+      } catch (const Interrupted&) {
+        if (over()) return;
+        fault = std::current_exception();
       } catch (const std::exception&) {
         fault = std::current_exception();
       }
@@ -59,6 +65,7 @@ void in_order(std::size_t count, const Crew& crew, const Start& start, const Mak
     }
   };
   const auto loop = [&] {
+    const StopScope scope(stop);
     try {
       work();
     } catch (const std::exception&) {

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "engine/base/error.h"
+#include "engine/base/stopping.h"
 
 namespace stampede {
 namespace {
@@ -64,6 +65,12 @@ std::string first_bytes_of(const fs::path& path) {
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& cure) {
   throw Error(path.string(), what, cure);
+}
+
+void refuse_link(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::is_symlink(folder, ignored))
+    refuse(folder, "this is a link, and nothing is written through it", "remove it, or name a new folder");
 }
 
 void check_stream(const fs::path& path, const OutputKind& kind) {
@@ -186,7 +193,10 @@ OutputFile::OutputFile(fs::path path, OutputKind kind, const OutputRules& rules)
     file_ = ::fcntl(*number, F_DUPFD_CLOEXEC, 3);
     is_stream_ = true;
   } else if (status && takes_streams(status->st_mode)) {
-    file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    do {
+      heed_stop();
+      file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);  // a pipe without a reader waits for one
+    } while (file_ < 0 && errno == EINTR);
     is_stream_ = true;
   } else {
     make();
@@ -228,7 +238,10 @@ void OutputFile::flush() {
   std::string_view left = waiting_;
   while (!left.empty()) {
     const ssize_t count = ::write(file_, left.data(), left.size());
-    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && errno == EINTR) {
+      heed_stop();
+      continue;
+    }
     if (count < 0) fail(errno);
     left.remove_prefix(static_cast<std::size_t>(count));
   }
@@ -266,42 +279,61 @@ void OutputFile::fail(int number) const {
                      : "name another file, or a folder that you may write in");
 }
 
-OutputFolder::OutputFolder(fs::path folder, const fs::path& marker, OutputKind kind, OutputRules rules)
-    : folder_(std::move(folder)), rules_(std::move(rules)) {
+OutputFolder::OutputFolder(fs::path folder, const fs::path& marker, OutputKind kind, OutputRules rules, fs::path within)
+    : folder_(std::move(folder)), within_(std::move(within)), rules_(std::move(rules)) {
   std::error_code ignored;
   if (is_standard_output(folder_)) refuse(folder_, "this is standard output, and a folder is needed", "name a folder");
   if (fs::exists(folder_, ignored) && !fs::is_directory(folder_, ignored))
     refuse(folder_, "this is a file, and a folder is needed", "name a new folder");
-  const fs::path known = folder_ / marker;
+  const fs::path known = folder_ / within_ / marker;
   ours_ = rules_.force() || (fs::is_regular_file(fs::symlink_status(known, ignored)) && kind.ours && kind.ours(known));
   kind_ = {kind.name, {}, false};
 }
 
-// Each a folder of its own below the first, which may be a link: its owner named it.
+// The folder itself may be a link: its owner named it.
+void OutputFolder::check_links(const fs::path& inside) const {
+  fs::path folder = folder_;
+  for (const fs::path& part : (within_ / inside).parent_path()) {
+    folder /= part;
+    refuse_link(folder);
+  }
+}
+
 void OutputFolder::make_folders(const fs::path& inside) const {
   std::error_code error;
   fs::create_directories(folder_, error);
   fs::path folder = folder_;
-  for (const fs::path& part : inside.parent_path()) {
+  for (const fs::path& part : (within_ / inside).parent_path()) {
     folder /= part;
     if (!error) fs::create_directory(folder, error);
-    if (!error && fs::is_symlink(folder))
-      refuse(folder, "this is a link, and nothing is written through it", "remove it, or name a new folder");
+    if (!error) refuse_link(folder);
     if (error && fs::is_directory(fs::symlink_status(folder))) error.clear();  // another thread has made it
   }
   if (error) refuse(folder, "the folder cannot be made: " + error.message(), "name another one");
 }
 
+void OutputFolder::check_place(const fs::path& path) const {
+  struct stat status {};
+  if (!ours_ && ::lstat(path.c_str(), &status) == 0)
+    refuse(path, "this file is there already, and the folder is not one of " + kind_.name + " of stampede's",
+           "name a new folder; --force replaces the file");
+}
+
+void OutputFolder::check(const std::vector<fs::path>& inside) const {
+  for (const fs::path& one : inside) {
+    const fs::path path = folder_ / within_ / one;
+    check_links(one);
+    check_place(path);
+    check_output(path, kind_, rules_);
+  }
+}
+
 void OutputFolder::write(const fs::path& inside, std::string_view bytes) const {
   make_folders(inside);
-  const fs::path path = folder_ / inside;
-  struct stat status {};
+  const fs::path path = folder_ / within_ / inside;
   {
     const std::lock_guard lock(made_->mutex);
-    const bool again = !made_->files.insert(path).second;
-    if (!ours_ && !again && ::lstat(path.c_str(), &status) == 0)
-      refuse(path, "this file is there already, and the folder is not one of " + kind_.name + " of stampede's",
-             "name a new folder; --force replaces the file");
+    if (made_->files.insert(path).second) check_place(path);
   }
   OutputFile file(path, kind_, rules_);
   file.write(bytes);

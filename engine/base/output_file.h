@@ -84,19 +84,24 @@ class OutputFile {
   std::string waiting_;
 };
 
-// A folder that is filled. Its files may be replaced where it is ours: where `marker` is a file in it that `kind`
-// knows. Elsewhere only what is not there yet is written. Below the folder no link is followed.
+// A folder that is filled, `within` one that somebody named. Its files may be replaced where it is ours: where `marker`
+// is a file in it that `kind` knows. Elsewhere only what is not there yet is written. Below the one that was named no
+// link is followed.
 class OutputFolder {
  public:
-  OutputFolder(std::filesystem::path folder, const std::filesystem::path& marker, OutputKind kind, OutputRules rules);
+  OutputFolder(std::filesystem::path folder, const std::filesystem::path& marker, OutputKind kind, OutputRules rules,
+               std::filesystem::path within = {});
 
+  // Throws where one of these files would not be written: ahead of the first, so that it is all or nothing.
+  void check(const std::vector<std::filesystem::path>& inside) const;
   void write(const std::filesystem::path& inside, std::string_view bytes) const;  // from any thread
-  const std::filesystem::path& path() const { return folder_; }
 
  private:
   void make_folders(const std::filesystem::path& inside) const;
+  void check_links(const std::filesystem::path& inside) const;
+  void check_place(const std::filesystem::path& path) const;
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, within_;
   OutputKind kind_;
   OutputRules rules_;
   bool ours_ = false;

@@ -19,6 +19,8 @@
 #include <system_error>
 #include <thread>
 
+#include "engine/base/stopping.h"
+
 namespace stampede {
 namespace {
 
@@ -177,7 +179,13 @@ ShellProgram::~ShellProgram() {
 
 int ShellProgram::wait() const {
   siginfo_t about{};
-  while (waitid(P_PID, static_cast<id_t>(process_), &about, WEXITED | WNOWAIT) != 0 && errno == EINTR) continue;
+  for (int look = 1;; ++look) {
+    const int failed = waitid(P_PID, static_cast<id_t>(process_), &about, WEXITED | WNOWAIT | WNOHANG);
+    if (failed != 0 && errno != EINTR) break;
+    if (failed == 0 && about.si_pid != 0) break;
+    heed_stop();
+    std::this_thread::sleep_for(std::chrono::milliseconds(std::min(look, 20)));
+  }
   return about.si_code == CLD_EXITED ? about.si_status << 8 : about.si_status;
 }
 

@@ -33,7 +33,7 @@ class ShellProgram {
   ShellProgram& operator=(const ShellProgram&) = delete;
 
   pid_t process() const { return process_; }  // of the shell, which is not waited for before the end
-  int wait() const;                           // until the shell ends: as waitpid says it
+  int wait() const;                           // until the shell ends: as waitpid says it. Heeds a stop
 
  private:
   struct Process;

@@ -7,6 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/base/names.h"
 #include "engine/base/nearest.h"
+#include "engine/base/stopping.h"
 #include "engine/episode/account.h"
 #include "engine/rollout/agent_action.h"
 #include "engine/rollout/call_motion.h"
@@ -174,7 +175,10 @@ void Acting::begin_hold(StepResult& result) {
   running.watch = track.watch_goal(std::max<std::int64_t>(held, 0));
 }
 
-void Acting::advance() { over = rollout.advance(); }
+void Acting::advance() {
+  heed_stop();
+  over = rollout.advance();
+}
 
 // One frame of what was asked for; `control` in the record, from the first such frame to the next skill.
 void Acting::one_frame(const std::vector<Operation>& operations) {

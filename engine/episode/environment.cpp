@@ -7,6 +7,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/names.h"
 #include "engine/base/nearest.h"
+#include "engine/base/stopping.h"
 #include "engine/episode/account.h"
 #include "engine/episode/acting.h"
 #include "engine/episode/dense_reward.h"
@@ -283,6 +284,9 @@ StepResult Environment::step(const AgentAction& action) {
     return impl_->step(action);
   } catch (const Interruption&) {
     impl_->now.reset();  // in the midst of a step there is nothing to go on with
+    throw;
+  } catch (const Interrupted&) {
+    impl_->now.reset();
     throw;
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/stopping.h"
 #include "engine/render/point_cloud.h"
 
 namespace stampede {
@@ -70,6 +71,7 @@ std::vector<EncodeQueue::File> EncodeQueue::files_of(std::int64_t frame, const s
 void EncodeQueue::encode(Frame& frame) const {
   for (File& file : frame.files) {
     if (file.as_before) continue;
+    heed_stop();
     const Picture& picture = (*frame.pictures)[file.picture];
     const std::optional<PictureKind> kind = picture_kind_from(file.image.kind);
     file.bytes = kind ? to_png(picture, *kind) : bytes_of(to_ply(point_cloud(picture, frame.views[file.picture])));

@@ -7,6 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/base/names.h"
 #include "engine/base/nearest.h"
+#include "engine/base/stopping.h"
 #include "engine/model/camera.h"
 #include "engine/record/encode_queue.h"
 #include "engine/record/observation.h"
@@ -154,6 +155,7 @@ void paint_frames(EpisodePainter& painter, const Observation& observation, const
   EncodeQueue queue(observation, painter.cameras(), images, frames.size() > 1 ? encoders : 0);
   std::vector<Picture> pictures;
   for (const std::int64_t frame : frames) {
+    heed_stop();
     painter.paint(frame, pictures);
     queue.add(frame, pictures, observation.points ? painter.views(frame) : std::vector<View>{});
   }

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
+#include "engine/base/stopping.h"
 #include "engine/render/baked_texture.h"
 #include "engine/render/check_views.h"
 
@@ -103,7 +104,10 @@ void SoftwareRenderer::draw(const ScenePoses& poses, std::span<const View> views
   place_things(poses);
   if (options.shadows && options.kinds.rgb && !views.empty()) draw_shadows();
   pictures.resize(views.size());
-  for (std::size_t i = 0; i < views.size(); ++i) draw_view(views[i], options, pictures[i]);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    heed_stop();
+    draw_view(views[i], options, pictures[i]);
+  }
 }
 
 void SoftwareRenderer::place_things(const ScenePoses& poses) {

@@ -16,6 +16,7 @@ OutputFolder indexed_folder(const ExportJob& job, const QueryResult& index) {
   const std::string head = to_csv(index);  // no rows yet: the names of its columns
   OutputFolder folder(job.folder, "index.csv", marked_kind("exported problems", head.substr(0, head.find(',')), head),
                       output_rules(job.arguments, job.console));
+  folder.check({"index.csv", "index.json"});
   write_index(folder, index);
   return folder;
 }

@@ -47,21 +47,27 @@ std::string cameras_csv(const Drawn& drawn) {
 }  // namespace
 
 void write_folder(const fs::path& folder, Drawn& drawn, const OutputRules& rules) {
-  const OutputFolder own(folder / fmt::format("episode_{:06}", drawn.stored.id), "cameras.csv",
-                         marked_kind("rendered pictures", "frame,time_s,camera,", kCameraColumns), rules);
-  own.write("cameras.csv", cameras_csv(drawn));  // first: by it the folder is known
-  own.write("masks.csv", masks_csv(*drawn.stored.scene));
+  const OutputFolder own(folder, "cameras.csv",
+                         marked_kind("rendered pictures", "frame,time_s,camera,", kCameraColumns), rules,
+                         fmt::format("episode_{:06}", drawn.stored.id));
   FileNames names({"cameras.csv", "masks.csv"});
   std::vector<std::string> folders;
   for (const CameraTrack& track : drawn.rendered.cameras) folders.push_back(names.take(track.camera.name));
   const ImageStore& images = *drawn.rendered.images;
+  std::vector<fs::path> files;
   for (std::size_t i = 0; i < images.count(); ++i) {
     const ImageRecord& image = images.record(i);
-    const std::vector<std::uint8_t> bytes = images.read(i);
     const char* ending = image.kind == "points" ? "ply" : "png";
-    own.write(fs::path(folders[static_cast<std::size_t>(image.camera)]) / file_name(image.kind) /
-                  fmt::format("{:06}.{}", image.frame, ending),
-              {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    files.push_back(fs::path(folders[static_cast<std::size_t>(image.camera)]) / file_name(image.kind) /
+                    fmt::format("{:06}.{}", image.frame, ending));
+  }
+  own.check(files);
+  own.check({"cameras.csv", "masks.csv"});
+  own.write("cameras.csv", cameras_csv(drawn));  // first: by it the folder is known
+  own.write("masks.csv", masks_csv(*drawn.stored.scene));
+  for (std::size_t i = 0; i < images.count(); ++i) {
+    const std::vector<std::uint8_t> bytes = images.read(i);
+    own.write(files[i], {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 }
 

@@ -51,19 +51,19 @@ void name_missing(const Catalogue& catalogue, std::int64_t id, const std::vector
 class Album {
  public:
   Album(const fs::path& folder, std::int64_t id, const OutputRules& rules)
-      : folder_(folder / fmt::format("episode_{:06}", id)), rules_(rules) {}
+      : folder_(folder), within_(fmt::format("episode_{:06}", id)), rules_(rules) {}
 
   void save(const OverlayPicture& picture) {
     std::string& camera = cameras_[picture.camera];
     if (camera.empty()) camera = names_.take(picture.camera);
     const Bytes png = marked_png(picture.width, picture.height, picture.rgb);
-    const OutputFolder own(folder_, fs::path(camera) / fmt::format("{:06}.png", picture.frame), sheet_kind(), rules_);
-    own.write(fs::path(camera) / fmt::format("{:06}.png", picture.frame),
-              {reinterpret_cast<const char*>(png.data()), png.size()});
+    const fs::path file = fs::path(camera) / fmt::format("{:06}.png", picture.frame);
+    OutputFolder(folder_, file, sheet_kind(), rules_, within_)
+        .write(file, {reinterpret_cast<const char*>(png.data()), png.size()});
   }
 
  private:
-  fs::path folder_;
+  fs::path folder_, within_;
   const OutputRules& rules_;
   FileNames names_;
   std::map<std::string, std::string> cameras_;  // folders

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "db/catalogue_set.h"
+#include "engine/base/stopping.h"
 #include "engine/record/arrays.h"
 #include "engine/render/png.h"
 #include "scripting/session/studio.h"
@@ -139,8 +140,9 @@ PictureFrames CatalogueReader::pictures(std::int64_t episode, const std::string&
     if (files[i].empty()) impl_->not_stored(episode, column, request.frames[i]);
 
   std::vector<Picture> pictures(files.size());
+  const std::atomic<bool>* const stop = stop_of_this_thread();
   each_in_threads(files.size(), request.threads, [&](std::size_t i) {
-    if (!files[i].empty())
+    if (!files[i].empty() && !(stop && stop->load()))
       from_file({reinterpret_cast<const std::uint8_t*>(files[i].data()), files[i].size()}, wanted->kind, pictures[i]);
   });
   PictureRequest drawn{.camera = wanted->camera, .rgb = false};
@@ -153,8 +155,10 @@ PictureFrames CatalogueReader::pictures(std::int64_t episode, const std::string&
     drawn.width = stored->width;
     drawn.height = stored->height;
   }
-  for (std::size_t i = 0; i < files.size(); ++i)
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    heed_stop();
     if (files[i].empty()) pictures[i] = picture_of(picture(episode, request.frames[i], drawn));
+  }
   for (const Picture& one : pictures)
     if (one.width != pictures.front().width || one.height != pictures.front().height)
       throw Error("episode " + std::to_string(episode), "pictures '" + column + "' of these frames differ in size",

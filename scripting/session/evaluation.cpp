@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/base/stopping.h"
 #include "engine/start/perturbation.h"
 #include "scripting/runtime/script_error.h"
 #include "scripting/session/prepared_source.h"
@@ -166,6 +167,8 @@ EpisodeRecord act_as(PreparedEpisode& prepared, const EvaluationRequest& request
     } catch (const ScriptError&) {
       throw;
     } catch (const Interruption&) {
+      throw;
+    } catch (const Interrupted&) {
       throw;
     } catch (const std::exception& error) {
       mistake = std::string("it threw: ") + error.what();

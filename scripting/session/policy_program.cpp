@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kFarewell{1000};  // from the end of its input to its death
-constexpr milliseconds kGlance{100};     // how often `stop` is looked at
+constexpr milliseconds kGlance{20};      // how often `stop` is looked at
 
 // Writing to a program that has ended is an error number, not a signal, whatever the process thinks of SIGPIPE.
 class NoPipeSignal {
@@ -114,7 +114,7 @@ std::optional<int> PolicyProgram::wait_for_end(milliseconds patience) const {
     if (waitid(P_PID, static_cast<id_t>(program_->process()), &about, WEXITED | WNOHANG | WNOWAIT) == 0 &&
         about.si_pid != 0)
       return about.si_code == CLD_EXITED ? about.si_status : -about.si_status;
-    if (Clock::now() >= end) return std::nullopt;
+    if (Clock::now() >= end || stopped()) return std::nullopt;
     std::this_thread::sleep_for(milliseconds(5));
   }
 }
@@ -166,7 +166,7 @@ PolicyProgram::Progress PolicyProgram::exchange(bool answered) {
     if (in_ < 0) unsent_.clear();
     if (unsent_.empty() && (!answered || take_line())) return Progress::done;
     if (out_ < 0 && answered) complain_of_end();
-    if (stop_ != nullptr && stop_->load()) return Progress::stopped;
+    if (stopped()) return Progress::stopped;
     const auto left = std::chrono::duration_cast<milliseconds>(end - Clock::now());
     if (left.count() <= 0 && !unsent_.empty())
       fail("the program did not read its standard input for " + seconds(patience_),

@@ -48,6 +48,7 @@ class PolicyProgram {
 
   std::string command_, awaited_;
   std::chrono::milliseconds patience_;
+  bool stopped() const { return stop_ != nullptr && stop_->load(); }
   const std::atomic<bool>* stop_;
   std::optional<ShellProgram> program_;
   int in_ = -1, out_ = -1;       // its standard input and output; -1: closed

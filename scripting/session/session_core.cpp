@@ -7,6 +7,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/processor.h"
+#include "engine/base/stopping.h"
 #include "engine/episode/episode_source.h"
 #include "engine/motion/planner.h"
 #include "engine/record/arrays.h"
@@ -176,8 +177,11 @@ PreparedEpisode SessionCore::prepare(const std::string& task, const EpisodeReque
 Episode SessionCore::run(const std::string& task_name, const EpisodeRequest& request) {
   PreparedEpisode prepared = prepare(task_name, request);
   if (auto episode = stored(prepared.key())) return *episode;
-  check_policies(library_, {prepared.job()}, prepared.options(), nullptr);
-  return keep(prepared.run(nullptr));
+  const std::atomic<bool>* const stop = stop_of_this_thread();
+  check_policies(library_, {prepared.job()}, prepared.options(), stop);
+  EpisodeRecord record = prepared.run(stop);
+  if (record.reason == Reason::interrupted) throw Interrupted();
+  return keep(std::move(record));
 }
 
 Episode SessionCore::keep(EpisodeRecord made) {

@@ -5,6 +5,7 @@
 
 #include "db/sqlite.h"
 #include "db/table_text.h"
+#include "engine/base/stopping.h"
 #include "sample_episode.h"
 
 using namespace stampede;
@@ -392,6 +393,9 @@ TEST_CASE("answers are bounded and can be interrupted") {
                     Contains("interrupted"));
   done = true;
   other.join();
+  const std::atomic<bool> stop = true;
+  const StopScope scope(&stop);
+  CHECK_THROWS_AS(filled.catalogue.query(std::string("SELECT sum(i) FROM (") + endless + ")"), Interrupted);
 }
 
 TEST_CASE("answers as table, CSV and JSON") {

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -53,6 +54,47 @@ TEST_CASE("Ctrl-C and SIGTERM end a run cleanly: what is finished stays whole, t
     CHECK(episodes.size() >= 2);
     for (const EpisodeSummary& episode : episodes) CHECK(episode.reason != Reason::interrupted);
     CHECK(say({"replay", folder / "demos.db", "1"}).code == kDone);
+  }
+}
+
+TEST_CASE("whatever a command is at, Ctrl-C ends it at once, and what it has started") {
+  const Folder folder;
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  REQUIRE(say({"run", "reach_target", "--root", kRoot, "--out", folder / "one.db"}).code == kDone);
+  const std::string out = folder / "out.db", mark = "7354" + std::to_string(getpid() % 10'000);
+  const std::vector<std::vector<std::string>> commands = {
+      {"run", "stack_blocks", "--episodes", "300", "--workers", "1", "--images", "all", "--size", "512x512"},
+      {"run", "stack_blocks", "--planner", "sh -c 'sleep " + mark + "' {domain} {problem} {plan}"},
+      {"run", "reach_target", "--policy", "sleep " + mark},
+      {"run", "reach_target", "--policy", "sh -c 'trap : INT TERM; sleep " + mark + "; sleep " + mark + "'"},
+      {"evaluate", "reach_target", "--policy", "sleep " + mark},
+      {"questions", folder / "one.db", "--out", folder / "pipe"}};
+  for (std::vector<std::string> words : commands) {
+    INFO(words[0] << " " << words[1] << " … " << words.back());
+    if (words[0] != "questions")
+      for (const std::string& word : {std::string("--out"), out, std::string("--root"), std::string(kRoot)})
+        words.push_back(word);
+    words.insert(words.begin(), "stampede");
+    std::vector<char*> list;
+    for (std::string& word : words) list.push_back(word.data());
+    list.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+      if (!std::freopen("/dev/null", "w", stderr) || !std::freopen("/dev/null", "w", stdout)) _exit(126);
+      execv(STAMPEDE_PROGRAM, list.data());
+      _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    const auto began = std::chrono::steady_clock::now();
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == kInterrupted));
+    CHECK(took.count() < 0.6);  // 0.2 s where nobody else wants the processor
+    CHECK(std::system(("pgrep -f 'slee[p] " + mark + "' >/dev/null").c_str()) != 0);
+    if (std::filesystem::exists(out)) CHECK(say({"replay", out}).code != kBug);
+    CHECK_FALSE(std::filesystem::exists(out + "-wal"));
   }
 }
 

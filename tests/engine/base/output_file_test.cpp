@@ -196,8 +196,22 @@ TEST_CASE("below the folder that was named no link is followed") {
   fs::create_directory_symlink(elsewhere.path(), folder.path() / "link");
   const OutputFolder out(folder.path(), "mark", note(), OutputRules({}, true));
   CHECK_THROWS_WITH(out.write("link/a", "1"), Contains("nothing is written through it"));
+  const OutputFolder within(folder.path(), "mark", note(), OutputRules({}, true), "link");
+  CHECK_THROWS_WITH(within.write("a", "1"), Contains("nothing is written through it"));
+  CHECK_THROWS_WITH(within.check({"a"}), Contains("nothing is written through it"));
+  CHECK(files_in(elsewhere.path()) == 0);
   OutputFolder(folder.path() / "link", "mark", note(), {}).write("a", "1");  // its owner named it
   CHECK(files_in(elsewhere.path()) == 1);
+}
+
+TEST_CASE("what could not be written is found ahead of the first file") {
+  const TemporaryFolder folder;
+  const OutputFolder out(folder.path(), "mark", note(), {}, "a");
+  out.check({"mark", "b/c"});
+  fs::create_directories(folder.path() / "a/b");
+  put(folder.path() / "a/b/c", "others'");
+  CHECK_THROWS_WITH(out.check({"mark", "b/c"}), Contains("is there already"));
+  OutputFolder(folder.path(), "mark", note(), OutputRules({}, true), "a").check({"mark", "b/c"});
 }
 
 }  // namespace stampede
