@@ -227,16 +227,33 @@ class Lifter {
 
   // A formula that is written out for each binding of its variables must not fill the memory.
   void count_ground(const Formula& formula) {
+    std::vector<std::size_t> choices;
+    for (const Parameter& one : formula.variables) choices.push_back(values(one).size());
+    count_ground("a formula", choices, [&] { return formula_text(formula, Names::plain); });
+  }
+
+  // So must an effect, and its bindings are gone through for each instance of its action.
+  void count_ground(const LiftedEffect& effect, const Action& action) {
+    std::vector<std::size_t> choices;
+    for (const int id : effect.forall) choices.push_back(variables_[static_cast<std::size_t>(id)].size());
+    count_ground("an effect", choices, [&] {
+      return "`" + task_.predicates[static_cast<std::size_t>(effect.atom.predicate)] + "` by action `" + action.name +
+             "`";
+    });
+  }
+
+  template <typename Text>
+  void count_ground(const std::string& what, const std::vector<std::size_t>& choices, const Text& text) {
     std::int64_t count = 1;
-    for (const Parameter& one : formula.variables) {
-      const auto choices = static_cast<std::int64_t>(values(one).size());
-      count = choices > 0 && count > kMostGround / choices ? kMostGround + 1 : count * choices;
+    for (const std::size_t one : choices) {
+      const auto more = static_cast<std::int64_t>(one);
+      count = more > 0 && count > kMostGround / more ? kMostGround + 1 : count * more;
     }
     ground_ += count;
     if (ground_ <= kMostGround) return;
-    throw TooManyGround("a formula over " + std::to_string(formula.variables.size()) + " variables and " +
+    throw TooManyGround(what + " over " + std::to_string(choices.size()) + " variables and " +
                         std::to_string(task_.objects.size()) + " objects has more than " + std::to_string(kMostGround) +
-                        " ground instances: " + formula_text(formula, Names::plain).substr(0, 200));
+                        " ground instances: " + text().substr(0, 200));
   }
 
   void expand(const Formula& forall, std::size_t from, const Scope& scope, std::vector<Conjunct>& all) {
@@ -398,7 +415,7 @@ class Lifter {
     parts.push_back(action.precondition);
     const std::vector<Conjunct> bodies = normal(negation_normal(conjunction(std::move(parts))), scope);
     std::vector<LiftedEffect> effects;
-    for (const Effect& effect : action.effects) lift_effect(effect, scope, effects);
+    for (const Effect& effect : action.effects) lift_effect(action, effect, scope, effects);
     for (const Conjunct& body : bodies) {
       Schema schema;
       schema.action = index;
@@ -411,7 +428,7 @@ class Lifter {
     }
   }
 
-  void lift_effect(const Effect& effect, const Scope& scope, std::vector<LiftedEffect>& effects) {
+  void lift_effect(const Action& action, const Effect& effect, const Scope& scope, std::vector<LiftedEffect>& effects) {
     LiftedEffect lifted;
     lifted.negated = effect.negated;
     const Scope inner = bind_parameters(effect.forall, scope, &lifted.forall);
@@ -421,6 +438,7 @@ class Lifter {
       effects.push_back(lifted);
       effects.back().forall.insert(effects.back().forall.end(), when.extra.begin(), when.extra.end());
       effects.back().when = std::move(when);
+      if (!effects.back().forall.empty()) count_ground(effects.back(), action);
     }
   }
 

@@ -62,7 +62,7 @@ struct LiftedTask {
   Conjunct goal;  // ground
 };
 
-// Formulas over too many objects to be written out: with the count, and a cure.
+// Quantifiers over too many objects to be written out: with the count, and a cure.
 class TooManyGround : public Error {
  public:
   explicit TooManyGround(const std::string& what)

@@ -202,11 +202,23 @@ bool Reachability::statics_hold(const Conjunct& conjunct, const std::vector<int>
   return true;
 }
 
+// What quantified effects take that are written out for an instance.
+std::int64_t Reachability::bytes_of_effects(const Schema& schema) {
+  std::int64_t bytes = 0;
+  for (const LiftedEffect& effect : schema.effects) {
+    if (effect.forall.empty()) continue;
+    std::int64_t count = 1;
+    for (const int id : effect.forall) count *= static_cast<std::int64_t>(schema.domains[id].size());
+    bytes += (effect.conditional ? 40 : 8) * count;
+  }
+  return bytes;
+}
+
 void Reachability::found(int schema) {
   const Schema& from = task_.schemas[schema];
   if (is_full()) return;
   // With the operator or axiom that will be made of it, and what heuristics keep of that.
-  bytes_ += 250 + 60 * static_cast<std::int64_t>(binding_.size());
+  bytes_ += 250 + 60 * static_cast<std::int64_t>(binding_.size()) + bytes_of_effects(from);
   ++instances_of_[schema];
   instances_.push_back({schema, binding_});
   std::vector<int> binding = binding_, arguments;

@@ -53,6 +53,7 @@ class Reachability {
   bool is_full() const { return bytes_ > most_bytes_; }
   void fill(int schema, std::size_t variable);
   void found(int schema);
+  static std::int64_t bytes_of_effects(const Schema& schema);
   bool unify(const LiftedAtom& pattern, int atom, int schema, std::vector<int>& bound);
   const std::vector<int>* candidates(const LiftedAtom& pattern, bool& complete, int& exact) const;
   bool statics_hold(const Conjunct& conjunct, const std::vector<int>& binding) const;

@@ -48,18 +48,17 @@ PlanOutcome solve_whole(const Domain& domain, const Problem& problem, const Plan
                         const std::set<PlanStep>& forbidden) {
   using namespace symbolic;
   PlanOutcome outcome;
-  LiftedTask lifted;
+  GroundTask task;
   try {
-    lifted = lift(domain, problem);
+    task = ground(lift(domain, problem), forbidden, limits.memory_bytes);
   } catch (const TooManyGround& error) {
     outcome.end = PlanEnd::memory_limit;
     outcome.explanation = error.message() + "\n    " + error.hint();
     return outcome;
   }
-  const GroundTask task = ground(std::move(lifted), forbidden, limits.memory_bytes);
   if (task.out_of_memory) {
     outcome.end = PlanEnd::memory_limit;
-    outcome.explanation = "more ground formulas than the limit of " + std::to_string(limits.memory_bytes) +
+    outcome.explanation = "more ground formulas and effects than the limit of " + std::to_string(limits.memory_bytes) +
                           " bytes has room for: " + task.fullest +
                           "\n    fewer variables, or narrower types of them, make fewer";
     return outcome;

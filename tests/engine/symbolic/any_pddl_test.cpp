@@ -64,6 +64,36 @@ TEST_CASE("nested when and forall become one level, and a variable that hides an
   CHECK_FALSE(apply(domain.actions[0], {"a"}, {{"p", {"b"}}, {"q", {"b"}}}, domain, objects).contains(seen));
 }
 
+TEST_CASE("what is quantified over too many objects is refused, in goals, conditions and effects alike") {
+  std::string objects;
+  for (int i = 0; i < 60; ++i) objects += " o" + std::to_string(i);
+  const std::string five = "(forall (?a ?b ?c ?d ?e) ", two = "(forall (?a ?b ?c) ";
+  const auto said = [&](const std::string& action, const std::string& goal, const std::string& derived = "") {
+    const Domain domain = domain_from_pddl(
+        "(define (domain d) (:requirements :adl :derived-predicates) (:predicates (p ?x) (q ?x ?y) (r))" + derived +
+            "(:action a " + action + "))",
+        "d");
+    const Problem problem = problem_from_pddl(
+        "(define (problem p) (:domain d) (:objects" + objects + ") (:init (p o1)) (:goal " + goal + "))", "p", domain);
+    const PlanOutcome outcome = solve(domain, problem);
+    CHECK_FALSE(outcome.solved);
+    CHECK(outcome.end == PlanEnd::memory_limit);
+    return outcome.explanation;
+  };
+  const std::string many = "more than 1000000 ground instances",
+                    usual = ":parameters (?x) :precondition (p ?x) :effect (not (p ?x))";
+  const std::string body = "(or (q ?a ?b) (q ?c ?d) (p ?e)))", goal = "(not (p o1))";
+  CHECK_THAT(said(usual, five + body), Catch::Contains(many));
+  CHECK_THAT(said(usual, "(r)", "(:derived (r) " + five + body + ")"), Catch::Contains(many));
+  for (const std::string inside :
+       {"(and (q ?a ?b) (q ?c ?d) (p ?e))", "(when (q ?a ?b) (and (q ?c ?d) (not (q ?e ?a))))",
+        "(when (exists (?f) (q ?f ?e)) (q ?a ?b))"})
+    CHECK_THAT(said(":parameters (?x) :precondition (p ?x) :effect " + five + inside + ")", goal),
+               Catch::Contains(many));
+  CHECK_THAT(said(":parameters (?x ?y ?z) :effect " + two + "(when (q ?a ?b) (q ?b ?c)))", goal),
+             Catch::Contains("of the action `a` over 6 variables"));
+}
+
 TEST_CASE("domains that cannot be read say where and why") {
   CHECK(domain_complaint("(:requirements :stirps)").find("did you mean ':strips'?") != std::string::npos);
   CHECK(domain_complaint("(:action a :parameters (?x ?X))").find("`?x` is declared twice") != std::string::npos);
