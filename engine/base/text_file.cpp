@@ -4,11 +4,15 @@
 
 #include "engine/base/error.h"
 #include "engine/base/output_file.h"
-#include "engine/base/read_file.h"
 
 namespace stampede {
 
-std::string read_text_file(const std::filesystem::path& path) { return read_file(path); }
+std::string read_text_file(const std::filesystem::path& path, std::uintmax_t most_bytes) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::string text = read_file(path, most_bytes);
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  return text;
+}
 
 bool holds_text(const std::filesystem::path& path, const std::string& text) {
   std::error_code code;

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/base/text_file.h"
 #include "engine/geometry/mesh.h"
 #include "engine/model/inertials.h"
 #include "engine/model/urdf_files.h"
@@ -58,17 +59,7 @@ constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 20;  // bytes
 constexpr int kMostElements = 10'000;  // both readers call themselves for what lies inside of what: this bounds it
 constexpr int kMostLinks = 1'000;
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code ignored;
-  if (!stream || !std::filesystem::is_regular_file(file, ignored))
-    throw Error(file.string(), "this URDF file cannot be read", "check its name and permissions");
-  if (std::filesystem::file_size(file, ignored) > kLargestFile)
-    throw Error(file.string(), "this URDF file is larger than 16 MiB", "meshes belong into files of their own");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+std::string read_text(const std::filesystem::path& file) { return read_text_file(file, kLargestFile); }
 
 // Exporters leave out what they do not know: no mass and no moment are 0, which is put right later.
 bool complete_elements(TiXmlElement& inertial) {
@@ -188,7 +179,7 @@ class UrdfReader {
   UrdfReader(const std::filesystem::path& file, const FileScope& scope, const urdf::ModelInterface& model)
       : file_(file), scope_(scope), model_(model) {}
 
-  UrdfBody read() {
+  UrdfBody read(bool free) {
     body_.name = model_.getName();
     add(*model_.getRoot(), -1);
     if (body_.parts.size() != model_.links_.size())
@@ -196,7 +187,8 @@ class UrdfReader {
         if (!seen_.contains(name))
           fail("link '" + name + "'", "does not hang on the root link '" + model_.getRoot()->name + "'",
                "connect it by a joint, without a cycle");
-    for (Error& remark : complete_inertials(file_.string(), false, body_.parts)) remarks_.push_back(std::move(remark));
+    if (!free)
+      for (Error& one : complete_inertials(file_.string(), false, body_.parts)) remarks_.push_back(std::move(one));
     return {std::move(body_), std::move(drawn_), std::move(remarks_)};
   }
 
@@ -394,10 +386,10 @@ class UrdfReader {
 
 UrdfBody read_urdf(const std::filesystem::path& file) { return read_urdf(file, beside(file)); }
 
-UrdfBody read_urdf(const std::filesystem::path& file, const FileScope& scope) {
+UrdfBody read_urdf(const std::filesystem::path& file, const FileScope& scope, bool free) {
   scope.check(file);
   const urdf::ModelInterfaceSharedPtr model = parse_urdf(file);
-  return UrdfReader(file, scope, *model).read();
+  return UrdfReader(file, scope, *model).read(free);
 }
 
 }  // namespace stampede

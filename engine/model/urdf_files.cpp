@@ -33,6 +33,7 @@ fs::path read_as(const fs::path& folder, const std::string& name) {
 
 // `<name>arm</name>` of a package's own description.
 bool says_name(const fs::path& description, const std::string& name) {
+  if (!is_file(description)) return false;
   std::ifstream in(description, std::ios::binary);
   std::string text(std::size_t{64} << 10, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <optional>
 #include <ostream>
@@ -11,6 +9,7 @@
 
 #include "engine/base/ordered_work.h"
 #include "engine/base/text.h"
+#include "engine/base/text_file.h"
 #include "scripting/commands/commands.h"
 #include "scripting/commands/picture_options.h"
 #include "scripting/commands/render_overlay.h"
@@ -41,9 +40,7 @@ std::vector<std::string> changed_scripts(const EpisodeRecord& episode, const Roo
   for (const DefinitionRecord& definition : episode.made.definitions) {
     const fs::path path = file_in(roots, definition.path);
     if (path.empty()) continue;
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (text != definition.source) changed.push_back(definition.path);
+    if (!holds_text(path, definition.source)) changed.push_back(definition.path);
   }
   return changed;
 }

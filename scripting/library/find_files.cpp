@@ -4,7 +4,7 @@
 
 #include "engine/base/enum_names.h"
 #include "engine/base/hash.h"
-#include "engine/base/read_file.h"
+#include "engine/base/text_file.h"
 #include "engine/base/utf8.h"
 #include "scripting/library/draft.h"
 #include "scripting/lua/sandbox.h"
@@ -66,7 +66,7 @@ std::string source_of(const fs::path& real_root, const fs::path& path, const std
   const fs::path real = fs::canonical(path, code);
   if (std::mismatch(real_root.begin(), real_root.end(), real.begin(), real.end()).first != real_root.end())
     throw Error(shown, "a link that leads out of its root", "copy the file instead");
-  std::string source = stampede::read_file(path, kLargest);
+  std::string source = read_text_file(path, kLargest);
   require_text(source, shown);
   return source;
 }

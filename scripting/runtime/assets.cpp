@@ -53,9 +53,9 @@ std::shared_ptr<const Image> Assets::image(const std::filesystem::path& file, co
   });
 }
 
-const UrdfBody& Assets::urdf(const std::filesystem::path& file) {
-  if (const auto found = urdfs_.find(file); found != urdfs_.end()) return found->second;
-  const UrdfBody& read = urdfs_.emplace(file, read_urdf(file, scope_)).first->second;
+const UrdfBody& Assets::urdf(const std::filesystem::path& file, bool free) {
+  if (const auto found = urdfs_.find({file, free}); found != urdfs_.end()) return found->second;
+  const UrdfBody& read = urdfs_.emplace(std::pair(file, free), read_urdf(file, scope_, free)).first->second;
   for (const Error& one : read.remarks) remark(one);
   return read;
 }

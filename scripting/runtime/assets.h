@@ -29,7 +29,7 @@ class Assets {
   const Drawn& drawn(const std::filesystem::path& file, const Vector3& scale, const Value& where);
   const Hulls& hulls(const std::filesystem::path& file, const Vector3& scale, const Value& where);
   std::shared_ptr<const Image> image(const std::filesystem::path& file, const Value& where);
-  const UrdfBody& urdf(const std::filesystem::path& file);  // its own errors name place enough
+  const UrdfBody& urdf(const std::filesystem::path& file, bool free = false);  // its own errors name place enough
 
   // What is no mistake and worth knowing of what was read and built: each once, in the order in which it came up.
   void remark(const Error& remark);
@@ -41,7 +41,7 @@ class Assets {
   std::map<std::string, Hulls> hulls_;
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
   std::vector<Error> remarks_;
-  std::map<std::filesystem::path, UrdfBody> urdfs_;  // a robot's takes longer than all else in a draw
+  std::map<std::pair<std::filesystem::path, bool>, UrdfBody> urdfs_;  // a robot's takes longer than all else in a draw
 };
 
 // Of the library's folders; `given` where they are there already.

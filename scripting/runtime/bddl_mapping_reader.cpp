@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <lua.hpp>
 
 #include "engine/base/names.h"
 #include "engine/base/nearest.h"
+#include "engine/base/text_file.h"
 #include "scripting/library/lua_value.h"
 #include "scripting/lua/sandbox.h"
 
@@ -197,11 +196,11 @@ class MappingReader {
 };
 
 std::string source_of(const std::string& path) {
-  std::error_code code;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(path, "cannot be read", "name a file of worlds/bddl, or a path to one");
-  if (std::filesystem::file_size(path, code) > kLargest) throw Error(path, "larger than 1 MiB");
-  return std::string(std::istreambuf_iterator<char>(stream), {});
+  try {
+    return read_text_file(path, kLargest);
+  } catch (const Error& error) {
+    throw Error(path, error.message(), "name a file of worlds/bddl, or a path to one");
+  }
 }
 
 }  // namespace

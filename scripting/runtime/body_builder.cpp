@@ -103,8 +103,9 @@ class Builder {
     Body body;
     body.name = source_.name;
     body.world_from_body = transform_from(fields);
+    body.free = is_free(fields);
     if (fields["urdf"].present()) {
-      const UrdfBody& urdf = assets_.urdf(source_.folder / fields["urdf"].as_text());
+      const UrdfBody& urdf = assets_.urdf(source_.folder / fields["urdf"].as_text(), body.free);
       body.parts = urdf.body.parts;
       result_.drawn.join(urdf.drawn);
     } else {
@@ -113,7 +114,6 @@ class Builder {
     add_parts(fields, body);
     set_joints(fields["joints"], body);
     start_followers(body);
-    body.free = is_free(fields);
     result_.stands_still = !body.free;
     join_loose(body);
     if (body.free && fields["urdf"].present()) weigh(fields, body);

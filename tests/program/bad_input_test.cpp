@@ -222,6 +222,22 @@ TEST_CASE("numbers out of range are usage, whatever the command, and the word af
   CHECK(say({"list", "--root", STAMPEDE_SOURCE_DIR, "skills"}).code == kDone);
 }
 
+TEST_CASE("a byte order mark at the beginning of a text is no part of it") {
+  const Folder mine;
+  const std::string mark = "\xef\xbb\xbf";
+  put(mine, "tasks/marked.lua", mark + file_text(std::string(kRoot) + "/tasks/reach_target.lua"));
+  const Said task = checked(mine, {"marked"});
+  INFO(task.out + task.err);
+  CHECK(task.code == kDone);
+  put(mine, "d.pddl", mark + "(define (domain d) (:predicates (p)) (:action a :parameters () :effect (p)))");
+  put(mine, "p.pddl", mark + "(define (problem q) (:domain d) (:init) (:goal (p)))");
+  put(mine, "plan", mark + "(a)\n");
+  CHECK(say({"plan", mine / "d.pddl", mine / "p.pddl"}).code == kDone);
+  const Said valid = say({"validate", mine / "d.pddl", mine / "p.pddl", mine / "plan"});
+  INFO(valid.out + valid.err);
+  CHECK(valid.code == kDone);
+}
+
 TEST_CASE("a question that would never end is ended by Ctrl-C, and one that would write is refused") {
   const Folder mine;
   REQUIRE(say({"run", "reach_target", "--root", STAMPEDE_SOURCE_DIR, "--out", mine / "d.db"}).code == kDone);

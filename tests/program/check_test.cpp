@@ -301,6 +301,21 @@ TEST_CASE("inertias that no body has are put right with a remark, whatever the b
     CHECK(said.code == kDone);
     CHECK(says(said.err, "link 'a': it moves and has no mass: 0.0625 kg are taken, from its shapes at 500 kg/m3"));
   }
+  put(mine, "worlds/objects/thing.urdf",
+      "<robot name='r'><link name='a'>" + kBox +
+          "<inertial><mass value='0.1'/><inertia ixx='1' iyy='1' izz='0' ixy='0' ixz='0' iyz='0'/></inertial></link>"
+          "<link name='b'>" +
+          kBox +
+          "<inertial><mass value='0.1'/></inertial></link>"
+          "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint></robot>");
+  const Said moving = check(mine, {"thing"});
+  INFO(all(moving));
+  for (const char* link : {"a", "b"})
+    CHECK(says(moving.err, "link '" + std::string(link) +
+                               "': no solid has its inertia: it is worked out from its 0.1 kg and its shapes"));
+  CHECK_FALSE(says(all(moving), "cannot move"));
+  put(mine, "worlds/objects/thing.lua", thing("urdf = \"thing.urdf\", fixed = true"));
+  CHECK(says(check(mine, {"thing"}).err, "cannot move"));
 }
 
 TEST_CASE("what is in millimetres is said at once, with its sizes") {

@@ -1,5 +1,7 @@
 #include "engine/model/urdf.h"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -201,6 +203,10 @@ TEST_CASE("bad URDF files say where and what") {
                        joint_of("j", "a", "b", "revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"))),
              Contains("joint 'j'") && Contains("lower limit"));
   CHECK_THROWS_AS(read_urdf("/nowhere/arm.urdf"), Error);
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.write("a", "").parent_path() / "pipe.urdf";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(read_urdf(pipe), Contains("it is no file"));
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #include "scripting/runtime/bddl_mapping_reader.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -77,6 +78,12 @@ TEST_CASE("words that nobody has are refused, with the nearest as cure") {
   CHECK_THROWS_WITH(read_text(R"(dialect = "libero", stands = { chest = { x = { 1, 0 }, y = { 0, 1 }, z = 0 } })"),
                     Catch::Contains("stands.chest.x"));
   CHECK_THROWS_WITH(read_text(R"(dialect = "libero", zone = "air_zon")"), Catch::Contains("air_zone"));
-  CHECK_THROWS_WITH(read_bddl_mapping(words_library(), "/nowhere/at_all.lua"), Catch::Contains("cannot be read"));
+  CHECK_THROWS_WITH(read_bddl_mapping(words_library(), "/nowhere/at_all.lua"),
+                    Catch::Contains("there is no such file") && Catch::Contains("worlds/bddl"));
+  const std::string pipe =
+      std::filesystem::temp_directory_path() / ("stampede_pipe_" + std::to_string(getpid()) + ".lua");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(read_bddl_mapping(words_library(), pipe), Catch::Contains("it is no file"));
+  std::filesystem::remove(pipe);
   CHECK_THROWS_WITH(read_text("dialect = nowhere.at_all"), Catch::Contains(":2"));
 }
