@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import signal
 import threading
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -80,6 +82,78 @@ def test_ctrl_c_ends_a_run_and_keeps_what_is_finished(tmp_path: Path) -> None:
     assert 2 <= kept < 40
     rest = session.run_all(["reach_target"], episodes=40)
     assert rest.existing == kept and rest.finished == 40 - kept
+
+
+# A plan that takes long: every block of four towers goes to another place.
+def hard_problem() -> tuple[str, str]:
+    domain = """(define (domain d) (:requirements :strips) (:predicates (on ?a ?b) (clear ?a) (hold ?a) (empty) (tab ?a))
+      (:action pick :parameters (?a) :precondition (and (clear ?a) (tab ?a) (empty))
+       :effect (and (hold ?a) (not (empty)) (not (tab ?a)) (not (clear ?a))))
+      (:action put :parameters (?a) :precondition (hold ?a)
+       :effect (and (not (hold ?a)) (empty) (tab ?a) (clear ?a)))
+      (:action stack :parameters (?a ?b) :precondition (and (hold ?a) (clear ?b))
+       :effect (and (not (hold ?a)) (empty) (on ?a ?b) (clear ?a) (not (clear ?b))))
+      (:action unstack :parameters (?a ?b) :precondition (and (on ?a ?b) (clear ?a) (empty))
+       :effect (and (hold ?a) (clear ?b) (not (on ?a ?b)) (not (clear ?a)) (not (empty)))))"""
+    count = 150
+    order = sorted(range(count), key=lambda i: (i * 7919) % 1009)
+    blocks = " ".join(f"b{i}" for i in range(count))
+    start = " ".join(f"(on b{a} b{b})" for a, b in zip(range(count), range(1, count)))
+    goal = " ".join(f"(on b{a} b{b})" for a, b in zip(order, order[1:]))
+    problem = (
+        f"(define (problem p) (:domain d) (:objects {blocks}) "
+        f"(:init (empty) (clear b0) (tab b{count - 1}) {start}) (:goal (and {goal})))"
+    )
+    return domain, problem
+
+
+def test_ctrl_c_ends_whatever_takes_long_at_once(tmp_path: Path) -> None:
+    file = tmp_path / "demos.db"
+    session = stampede.Session(catalogue=file)
+    session.run("reach_target", seed=1)
+    endless = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT count(*) FROM n"
+    domain, problem = hard_problem()
+    world = stampede.Session().environment("stack_blocks")
+    world.reset(stampede.Reset(seed=1))
+    step = stampede.Session().plan("stack_blocks", seed=1).steps[0]
+
+    def run_on() -> None:
+        for seed in range(1000):
+            session.run("stack_blocks", seed=seed)
+
+    def reset_on() -> None:
+        for seed in range(1000):
+            world.reset(stampede.Reset(seed=seed))
+
+    def step_on() -> None:
+        state = world.save()
+        for _ in range(1000):
+            world.restore(state)
+            world.step(stampede.Action.skill_call(step.action, list(step.arguments)))
+
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    long: list[Callable[[], object]] = [
+        lambda: session.query(endless),
+        lambda: stampede.Catalogue(file).query(endless),
+        lambda: stampede.plan_pddl(domain, problem),
+        run_on,
+        step_on,
+        reset_on,
+    ]
+    for one in long:
+        pressed: list[float] = []
+
+        def press(pressed: list[float] = pressed) -> None:
+            pressed.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threading.Timer(0.5, press).start()
+        with pytest.raises(KeyboardInterrupt):
+            one()
+        assert time.monotonic() - pressed[0] < 0.5  # 0.2 s where nobody else wants the processor
+    stored = stampede.Catalogue(file).episodes()
+    assert all(episode.reason == "none" or not episode.success for episode in stored)
+    assert session.run("reach_target", seed=1).success
 
 
 class TowardsTarget:

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "convert.h"
+#include "interruptible.h"
 
 namespace stampede::python {
 namespace {
@@ -230,12 +231,7 @@ void bind_reading(nb::class_<PyReader>& reader) {
             const Using use(self.turn, "Catalogue.query");
             std::vector<SqlValue> values;
             for (const nb::handle one : parameters) values.push_back(sql_value(one));
-            Rows rows;
-            {
-              const Released free;
-              rows = self->query(question, values, most_rows);
-            }
-            return answer_of(rows);
+            return answer_of(interruptible([&] { return self->query(question, values, most_rows); }));
           },
           "question"_a, "parameters"_a = nb::tuple(), "most_rows"_a = 0,
           "Names of columns, and rows as tuples. most_rows 0: all.")
@@ -243,12 +239,7 @@ void bind_reading(nb::class_<PyReader>& reader) {
           "arrays",
           [](const PyReader& self, std::int64_t episode, std::vector<std::string> columns) {
             const Using use(self.turn, "Catalogue.arrays");
-            EpisodeArrays arrays;
-            {
-              const Released free;
-              arrays = self->arrays(episode, {std::move(columns)});
-            }
-            return shared_arrays(std::move(arrays));
+            return shared_arrays(interruptible([&] { return self->arrays(episode, {columns}); }));
           },
           "episode"_a, "columns"_a = std::vector<std::string>(),
           "Columns or groups by name; none: all but `applicable`.")
@@ -257,11 +248,7 @@ void bind_reading(nb::class_<PyReader>& reader) {
           [](const PyReader& self, std::int64_t episode, const std::string& column, std::vector<std::int64_t> frames,
              bool draw, int threads) {
             const Using use(self.turn, "Catalogue.pictures");
-            PictureFrames all;
-            {
-              const Released free;
-              all = self->pictures(episode, column, {std::move(frames), draw, threads});
-            }
+            PictureFrames all = interruptible([&] { return self->pictures(episode, column, {frames, draw, threads}); });
             return std::visit([&](auto& values) { return numpy_array(std::move(values), all.shape); }, all.data);
           },
           "episode"_a, "column"_a, "frames"_a, "draw"_a = false, "threads"_a = 1,

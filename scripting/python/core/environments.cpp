@@ -7,6 +7,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "interruptible.h"
 #include "keywords.h"
 
 namespace stampede::python {
@@ -296,12 +297,13 @@ PyType_Slot kEnvironmentSlots[] = {{Py_tp_traverse, reinterpret_cast<void*>(&tra
 template <typename Begin>
 auto begun(PyEnvironment& self, const char* name, const Begin& begin) {
   const Using use(self.turn, name);
-  EnvironmentObservation now;
-  {
-    const Released free;
-    now = begin();
-  }
-  return to_python(std::move(now));
+  return to_python(interruptible(begin));
+}
+
+// Longer than the frame that a set-point lasts.
+bool may_last(const AgentAction& action) {
+  return action.space == "skill" || action.space == "hold" || action.space == "go_on" ||
+         action.space.starts_with("tool_path");
 }
 
 // What an environment says of itself.
@@ -420,6 +422,7 @@ void bind_stepping(nb::class_<PyEnvironment>& environment) {
           "step",
           [](PyEnvironment& self, const AgentAction& action) {
             const Using use(self.turn, "Environment.step");
+            if (may_last(action)) return to_step(interruptible([&] { return self->step(action); }));
             StepResult result;
             {
               const Released free;

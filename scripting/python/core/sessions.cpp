@@ -11,11 +11,10 @@
 #include <stampede/session.h>
 
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <future>
 
 #include "environments.h"
+#include "interruptible.h"
 #include "keywords.h"
 
 namespace stampede::python {
@@ -124,33 +123,6 @@ int clear_session(PyObject* self) {
 PyType_Slot kSessionSlots[] = {{Py_tp_traverse, reinterpret_cast<void*>(&traverse_session)},
                                {Py_tp_clear, reinterpret_cast<void*>(&clear_session)},
                                {0, nullptr}};
-
-// Does long work in another thread, so that Ctrl-C and other signals reach Python meanwhile: `stop` is set then, and
-// what the signal's handler raised is raised when the work has ended.
-template <typename Work>
-auto interruptible(const Work& work) {
-  std::atomic<bool> stop = false;
-  std::future<decltype(work(stop))> answer = std::async(std::launch::async, [&] { return work(stop); });
-  std::exception_ptr raised;
-  {
-    const Released free;
-    while (answer.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
-      if (is_ending()) stop = true;
-      if (stop) continue;
-      const Acquired gil;
-      if (PyErr_CheckSignals() == 0) continue;
-      try {
-        throw nb::python_error();
-      } catch (nb::python_error&) {
-        raised = std::current_exception();
-      }
-      stop = true;
-    }
-  }
-  auto result = answer.get();
-  if (raised) std::rethrow_exception(raised);
-  return result;
-}
 
 RunTally run_all(PySession& self, RunRequest request, const std::optional<nb::callable>& progress,
                  const std::optional<nb::callable>& sink) {
@@ -348,8 +320,7 @@ void bind_running(nb::class_<PySession>& session) {
           [](PySession& self, const std::string& task, const nb::kwargs& words) {
             const EpisodeRequest request = request_from(words, "run");
             const Using use(self.turn, "Session.run");
-            const Released free;
-            return self->run(task, request);
+            return interruptible([&] { return self->run(task, request); });
           },
           "task"_a, "request"_a,
           R"(Runs one episode. What the catalogue has already is given without running. Repeatable, bit for bit.
@@ -395,8 +366,7 @@ void bind_planning(nb::class_<PySession>& session) {
           [](const PySession& self, const std::string& task, const nb::kwargs& words) {
             const EpisodeRequest request = request_from(words, "plan");
             const Using use(self.turn, "Session.plan");
-            const Released free;
-            return self->plan(task, request);
+            return interruptible([&] { return self->plan(task, request); });
           },
           "task"_a, "request"_a, "The plan for the start that `run` would make. variation, seed, where, goal matter.")
       .def(
@@ -405,11 +375,7 @@ void bind_planning(nb::class_<PySession>& session) {
             const Using use(self.turn, "Session.query");
             std::vector<SqlValue> values;
             for (const nb::handle one : parameters) values.push_back(sql_value(one));
-            Rows rows;
-            {
-              const Released free;
-              rows = self->query(question, values);
-            }
+            const Rows rows = interruptible([&] { return self->query(question, values); });
             return nb::make_tuple(rows.columns, rows_of(rows));
           },
           "question"_a, "parameters"_a = nb::tuple(), "Names of columns, and rows. parameters: for ?1, ?2 …");
@@ -421,12 +387,7 @@ void bind_reading(nb::class_<PySession>& session) {
           "arrays",
           [](const PySession& self, const Episode& episode, std::vector<std::string> columns) {
             const Using use(self.turn, "Session.arrays");
-            EpisodeArrays arrays;
-            {
-              const Released free;
-              arrays = self->arrays(episode, {std::move(columns)});
-            }
-            return shared_arrays(std::move(arrays));
+            return shared_arrays(interruptible([&] { return self->arrays(episode, {columns}); }));
           },
           "episode"_a, "columns"_a = std::vector<std::string>())
       .def(
@@ -548,8 +509,7 @@ void bind_sessions(nb::module_& module) {
       "plan_pddl",
       [](const std::string& domain, const std::string& problem) {
         const Calling call;
-        const Released free;
-        return plan_pddl(domain, problem);
+        return interruptible([&] { return plan_pddl(domain, problem); });
       },
       "domain"_a, "problem"_a,
       "Plans for the PDDL domain and problem of any author. Raises Error with line and column.");
