@@ -112,7 +112,7 @@ struct CatalogueReader::Impl {
 CatalogueReader::CatalogueReader(const std::filesystem::path& file)
     : CatalogueReader(std::vector<std::filesystem::path>{file}) {}
 CatalogueReader::CatalogueReader(const std::vector<std::filesystem::path>& files)
-    : impl_(new Impl{CatalogueSet(files)}) {}
+    : impl_(std::unique_ptr<Impl>(new Impl{CatalogueSet(files)})) {}
 CatalogueReader::~CatalogueReader() = default;
 CatalogueReader::CatalogueReader(CatalogueReader&&) noexcept = default;
 CatalogueReader& CatalogueReader::operator=(CatalogueReader&&) noexcept = default;

@@ -9,7 +9,8 @@ struct Session::Impl {
 };
 
 Session::Session(SessionOptions options)
-    : impl_(new Impl{std::make_shared<SessionCore>(options.root, options.paths, std::move(options.catalogue))}) {}
+    : impl_(std::unique_ptr<Impl>(
+          new Impl{std::make_shared<SessionCore>(options.root, options.paths, std::move(options.catalogue))})) {}
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;

@@ -298,6 +298,22 @@ TEST_CASE("the actions that are stored with a demo do its task again, a frame ea
   }
 }
 
+TEST_CASE("what was moved from says so, whatever it is asked") {
+  const auto said = Catch::Contains("moved from");
+  Environment first = environment("reach_target");
+  first.reset();
+  Environment second = std::move(first);
+  second.reset();
+  // NOLINTBEGIN(bugprone-use-after-move)
+  CHECK_THROWS_WITH(first.reset(), said);
+  CHECK_THROWS_WITH(first.step({.space = "hold"}), said);
+  CHECK_THROWS_WITH(first.frame_hz(), said);
+  CHECK_THROWS_WITH(first.save(), said);
+  // NOLINTEND(bugprone-use-after-move)
+  first = std::move(second);
+  first.reset();
+}
+
 TEST_CASE("the goal must hold for as many frames, however an agent waits for it") {
   const auto pose = [](const StepResult& now) { return now.observation["gripper_pose"].reals(); };
   const auto hold = [](int frames) {

@@ -24,6 +24,7 @@
 #include "stampede/action.h"
 #include "stampede/episode.h"
 #include "stampede/error.h"
+#include "stampede/own.h"
 #include "stampede/visibility.h"
 #include "stampede/world_state.h"
 
@@ -224,7 +225,7 @@ class STAMPEDE_EXPORT Environment {
  private:
   EnvironmentObservation reset_to(const SavedState& state);
 
-  std::unique_ptr<Impl> impl_;
+  Own<Impl> impl_;
 };
 
 }  // namespace stampede

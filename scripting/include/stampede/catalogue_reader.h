@@ -16,6 +16,7 @@
 
 #include "stampede/arrays.h"
 #include "stampede/error.h"
+#include "stampede/own.h"
 #include "stampede/rows.h"
 #include "stampede/visibility.h"
 #include "stampede/world_state.h"
@@ -74,7 +75,7 @@ class STAMPEDE_EXPORT CatalogueReader {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Own<Impl> impl_;
 };
 
 }  // namespace stampede

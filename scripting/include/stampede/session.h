@@ -12,6 +12,7 @@
 #include "stampede/episode.h"
 #include "stampede/error.h"
 #include "stampede/evaluation.h"
+#include "stampede/own.h"
 #include "stampede/picture.h"
 #include "stampede/rows.h"
 #include "stampede/visibility.h"
@@ -109,7 +110,7 @@ class STAMPEDE_EXPORT Session {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Own<Impl> impl_;
 };
 
 // Plans for the PDDL domain and problem of any author. Throws Error with line and column for what is no PDDL.
