@@ -72,6 +72,7 @@ SkillResult Undo::run() {
     restart();
     while (true) {
       last = step();
+      const bool step_failed = !last.ok();  // else it went well, and what came of it leaves no plan
       if (last.ok() && i_ == plan_.size()) return last;
       if (last.ok()) last = plan_.watch(i_ + 1, last.segment);
       if (last.ok()) {
@@ -82,7 +83,8 @@ SkillResult Undo::run() {
                             last.reason == Reason::script_error;
       if (hopeless) return last;
       if (i_ == plan_.size() && i_ > 0) --i_;
-      if (i_ < plan_.size()) ++blame_[plan_.steps[i_]], ++failed_[plan_.steps[i_]];
+      if (i_ < plan_.size()) ++blame_[plan_.steps[i_]];
+      if (i_ < plan_.size() && step_failed) ++failed_[plan_.steps[i_]];
       if (++tries >= drive_.options.tries_per_episode) return with_bottleneck(std::move(last), tries);
       if (another_way(last)) continue;
       if (!try_again(last)) break;
@@ -205,13 +207,13 @@ bool Undo::other_plan() {
   return plan_.again(0).ok();
 }
 
-// Says which step failed most, where that is not the one that failed last.
+// Says which step failed most, where that is not the one that failed last. What left no plan was no step's failure.
 SkillResult Undo::with_bottleneck(SkillResult last, int tries) const {
   const auto worst = std::max_element(failed_.begin(), failed_.end(),
                                       [](const auto& a, const auto& b) { return a.second < b.second; });
   if (worst == failed_.end() || (i_ < plan_.size() && worst->first == plan_.steps[i_])) return last;
-  last.detail += "; most of " + std::to_string(tries) + " failures were of " +
-                 to_text(Fact{worst->first.action, worst->first.arguments}) + ": " + std::to_string(worst->second);
+  last.detail += "; of " + std::to_string(tries) + " failures " + std::to_string(worst->second) + " were of " +
+                 to_text(Fact{worst->first.action, worst->first.arguments});
   return last;
 }
 
