@@ -273,7 +273,10 @@ class LabelReader {
 
 Labels read_labels(const std::filesystem::path& file, const std::string& shown, const EpisodeRecord& episode,
                    const LabelClock& clock) {
-  return LabelReader(episode, label_rows(file, shown, clock), clock).read();
+  Labels labels = LabelReader(episode, label_rows(file, shown, clock), clock).read();
+  if (labels.segments.empty() && labels.facts.empty() && labels.language.empty())
+    throw Error(shown, "it holds no labels", "it takes segments, facts or language, or leave it out");
+  return labels;
 }
 
 void put_labels(Labels labels, EpisodeRecord& episode) {

@@ -211,7 +211,7 @@ RecordingFile read_recording(const fs::path& folder) {
     throw Error(folder.string(), "there is no such folder", "name a recording folder; db/recording/README.md");
   if (!fs::exists(folder / "recording.json", ignored))
     throw Error(folder.string(), "this folder has no recording.json", "see db/recording/README.md");
-  recording.text = read_text_file(folder / "recording.json");
+  recording.text = read_text_file(recording.path_of("recording.json", recording.shown));
   const Value root = value_from_json(recording.text, recording.shown);
   require_fields(root, {"stampede_recording", "task", "outcome", "reason", "detail", "world", "frame_hz", "start_s",
                         "end_s", "robot", "clocks", "streams", "cameras", "labels", "source"});

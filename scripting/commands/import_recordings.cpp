@@ -124,9 +124,6 @@ ExitCode import_labels(const Arguments& arguments, Console& console) {
     throw UsageError("episode " + std::to_string(id) + " is simulated: its labels are the simulator's",
                      "name an episode whose source is real");
   const Labels labels = read_labels(words[1], words[1], episode);
-  if (labels.segments.empty() && labels.facts.empty() && labels.language.empty())
-    throw Error(words[1], "it holds no labels, and would leave those of the episode as they are",
-                "labels take the place of those of the same sort: segments, facts or language");
   put_labels(labels, episode);
   catalogue.set_labels(id, episode);
   catalogue.close();

@@ -218,6 +218,12 @@ TEST_CASE("files of a recording lie in it, as plain files") {
         REQUIRE(mkfifo((lab.folder() / "gripper.csv").c_str(), 0600) == 0);
       },
       "gripper.csv", "it is no file");
+  refuse(
+      [&](const Lab& lab) {
+        fs::copy_file(lab.folder() / "recording.json", elsewhere.folder() / "other.json");
+        in_place_of(lab.folder() / "recording.json", elsewhere.folder() / "other.json");
+      },
+      "recording.json", "outside");
   for (const std::string name : {"../x.csv", "/etc/hostname", "a/../../x.csv"})
     refuse([&](const Lab& lab) { lab.change([&](auto& j) { j["streams"][1]["file"] = name; }); }, "streams[1].file",
            "");
