@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include "engine/base/error.h"
 #include "engine/start/language.h"
@@ -14,10 +15,11 @@ bool at(const FactRecord& record, std::int64_t frame) {
   return record.first_frame <= frame && frame < record.end_frame;
 }
 
-std::string line(const char* format, const std::string& name, double a, double b, double c) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, name.c_str(), a, b, c);
-  return text;
+// What is rounded to nothing has no sign: 0.000, not -0.000.
+std::string rounded(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return std::strspn(text, "-0.") == std::strlen(text) && text[0] == '-' ? text + 1 : text;
 }
 
 }  // namespace
@@ -68,11 +70,23 @@ std::string describe(const AbstractState& state, const Domain& domain, const Sce
   }
   for (const auto& [name, fraction] : state.joint_fractions)
     if (!name.starts_with(scene.robot.name + "."))
-      text += line("%s is %.0f %% open (%.3f)\n", name, 100 * fraction, state.joints.at(name), 0);
-  for (const auto& [name, opening] : state.openings) text += line("%s is open %.3f m\n", name, opening, 0, 0);
-  for (const auto& [name, pose] : state.poses)
-    text += line("%s is at %.3f %.3f %.3f\n", name, pose.position[0], pose.position[1], pose.position[2]);
+      text += name + " is " + rounded(100 * fraction, 0) + " % open (" + rounded(state.joints.at(name), 3) + ")\n";
+  for (const auto& [name, opening] : state.openings) text += name + " is open " + rounded(opening, 3) + " m\n";
+  const std::set<std::string> unseen = unseen_things(state);
+  for (const auto& [name, pose] : state.poses) {
+    text += name + " is at";
+    for (const double value : pose.position) text += " " + rounded(value, 3);
+    text += unseen.contains(name) ? " (not known)\n" : "\n";
+  }
   return text;
+}
+
+std::set<std::string> unseen_things(const AbstractState& state) {
+  std::set<std::string> things;
+  for (const Fact& fact : state.facts)
+    if ((fact.predicate == "inside" || fact.predicate == "on") && !state.observed.contains(fact))
+      things.insert(fact.arguments.front());
+  return things;
 }
 
 }  // namespace stampede

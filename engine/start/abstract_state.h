@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "engine/record/record.h"
@@ -25,5 +26,8 @@ AbstractState abstract_state(const EpisodeRecord& episode, std::int64_t frame);
 // One line each: facts as sentences by the labels of their predicates (`the red block is on the table`), what is not
 // known marked; then joints and poses.
 std::string describe(const AbstractState& state, const Domain& domain, const Scene& scene);
+
+// Of which nobody knows where they are: what lies hidden.
+std::set<std::string> unseen_things(const AbstractState& state);
 
 }  // namespace stampede

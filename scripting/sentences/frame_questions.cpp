@@ -6,6 +6,7 @@
 
 #include "engine/base/random.h"
 #include "engine/language/lexicon.h"
+#include "engine/start/abstract_state.h"
 #include "engine/start/language.h"
 
 namespace stampede {
@@ -44,6 +45,8 @@ class QuestionMaker {
     for (const FactRecord& fact : episode.labels.facts)
       if (fact.first_frame <= frame && frame < fact.end_frame) facts_.insert(fact.fact);
     for (const FactRecord& fact : episode.labels.facts) ever_.insert(fact.fact);
+    if (frame >= 0 && frame < static_cast<std::int64_t>(episode.frames.size()))
+      unseen_ = unseen_things(abstract_state(episode, frame));
   }
 
   std::vector<FrameQuestion> make() {
@@ -82,11 +85,13 @@ class QuestionMaker {
     return spoken && seen_clearly(fact.arguments) ? predicate : nullptr;
   }
 
-  // Regions are not seen; of things that share their words, those that do not stand apart cannot be named.
+  // Regions are not seen, nor what lies hidden; of things that share their words, those that do not stand apart cannot
+  // be named.
   bool seen_clearly(const std::vector<std::string>& names) const {
     return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
       const Object* object = scene_.object(name);
-      return object != nullptr && object->kind != ObjectKind::region && clear_phrase(scene_, name);
+      return !unseen_.contains(name) && object != nullptr && object->kind != ObjectKind::region &&
+             clear_phrase(scene_, name);
     });
   }
 
@@ -153,6 +158,8 @@ class QuestionMaker {
       if (object.kind == ObjectKind::body && !object.class_name.empty())
         by_class[spaced_name(object.class_name)].push_back(&object);
     for (const auto& [name, objects] : by_class) {
+      if (std::any_of(objects.begin(), objects.end(), [&](const Object* one) { return unseen_.contains(one->name); }))
+        continue;
       std::map<std::string, int> colours;
       for (const Object* object : objects)
         if (const auto colour = object->attributes.find("colour"); colour != object->attributes.end())
@@ -231,7 +238,7 @@ class QuestionMaker {
     const auto can_be_asked = [&](const std::string& name) {
       static const std::set<std::string> kUnder = {"table", "floor", "pedestal"};
       const std::optional<std::string> called = clear_phrase(scene_, name);
-      return called && !kUnder.contains(name) && called->find("left") == std::string::npos &&
+      return called && !unseen_.contains(name) && !kUnder.contains(name) && called->find("left") == std::string::npos &&
              called->find("right") == std::string::npos && called->find("middle") == std::string::npos;
     };
     for (std::size_t i = 0; i < episode_.scene.posed.size() && i < frame.object_pose.size(); ++i) {
@@ -262,6 +269,7 @@ class QuestionMaker {
   const Scene scene_;  // with the things where they are at the frame, which their names go by
   std::int64_t frame_;
   Facts facts_, ever_;
+  std::set<std::string> unseen_;  // what nobody can know of at the frame
   std::vector<FrameQuestion> made_;
 };
 

@@ -168,6 +168,24 @@ TEST_CASE("Ctrl-C ends paraphrase, and what is done is kept") {
   CHECK(kept["asked"].size() == 1);
 }
 
+TEST_CASE("nobody is asked about what lies hidden") {
+  const Folder folder;
+  const std::string db = folder / "q.db";
+  REQUIRE(say({"run", "find_item_in_drawer", "--seed", "3", "--root", kRoot, "--out", db}).code == kDone);
+  REQUIRE(say({"questions", db, "--root", kRoot, "--per-frame", "60", "--frames", "8", "--out", folder / "q"}).code ==
+          kDone);
+  std::istringstream in(file_text(folder / "q"));
+  int before = 0, after = 0;
+  for (std::string text; std::getline(in, text);) {
+    const nlohmann::json line = nlohmann::json::parse(text);
+    INFO(text);
+    const bool of_it = says(line["question"], "tin") && line["type"] != "next_skill";
+    if (line["frame"] == 0) CHECK_FALSE(of_it);
+    ++(line["frame"] == 0 ? before : after);
+  }
+  CHECK((before > 0 && after > 0));
+}
+
 TEST_CASE("questions about stored pictures name their camera, hold by the catalogue's facts, and come out the same") {
   const Folder folder;
   const std::string db = folder / "q.db";

@@ -1,6 +1,7 @@
 #include "engine/start/abstract_state.h"
 
 #include <catch2/catch.hpp>
+#include <regex>
 
 #include "engine/base/error.h"
 #include "tests/support/plain_task.h"
@@ -69,6 +70,16 @@ TEST_CASE("the state in symbols at a frame: facts, what is known of them, and nu
   const std::string text = describe(before, DarkSymbols().domain(), scene);
   CHECK(text.find("is on the table (not known)\n") != std::string::npos);
   CHECK(text.find("the hand is empty\n") != std::string::npos);
+  CHECK(unseen_things(before) == std::set<std::string>{"cube2"});
+  CHECK(unseen_things(after).empty());
+  CHECK(text.find("\ncube2 is at ") != std::string::npos);
+  CHECK(std::regex_search(text, std::regex("\ncube2 is at [-0-9. ]+ \\(not known\\)\n")));
+  AbstractState nearly;
+  nearly.joints["door"] = -2e-7;
+  nearly.joint_fractions["door"] = -1e-7;
+  nearly.poses["cube2"].position = {-0.0004, -0.0, -0.0006};
+  CHECK(describe(nearly, DarkSymbols().domain(), scene) ==
+        "door is 0 % open (0.000)\ncube2 is at 0.000 0.000 -0.001\n");
   CHECK_THROWS_AS(abstract_state(episode, -1), Error);
   CHECK_THROWS_AS(abstract_state(episode, static_cast<std::int64_t>(episode.frames.size())), Error);
 }
