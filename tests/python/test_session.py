@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import signal
 import threading
@@ -84,9 +85,10 @@ def test_ctrl_c_ends_a_run_and_keeps_what_is_finished(tmp_path: Path) -> None:
     assert rest.existing == kept and rest.finished == 40 - kept
 
 
-# A plan that takes long: every block of four towers goes to another place.
+# A plan that takes long: one tower of many blocks in another order.
 def hard_problem() -> tuple[str, str]:
-    domain = """(define (domain d) (:requirements :strips) (:predicates (on ?a ?b) (clear ?a) (hold ?a) (empty) (tab ?a))
+    domain = """(define (domain d) (:requirements :strips)
+      (:predicates (on ?a ?b) (clear ?a) (hold ?a) (empty) (tab ?a))
       (:action pick :parameters (?a) :precondition (and (clear ?a) (tab ?a) (empty))
        :effect (and (hold ?a) (not (empty)) (not (tab ?a)) (not (clear ?a))))
       (:action put :parameters (?a) :precondition (hold ?a)
@@ -98,8 +100,8 @@ def hard_problem() -> tuple[str, str]:
     count = 150
     order = sorted(range(count), key=lambda i: (i * 7919) % 1009)
     blocks = " ".join(f"b{i}" for i in range(count))
-    start = " ".join(f"(on b{a} b{b})" for a, b in zip(range(count), range(1, count)))
-    goal = " ".join(f"(on b{a} b{b})" for a, b in zip(order, order[1:]))
+    start = " ".join(f"(on b{a} b{b})" for a, b in itertools.pairwise(range(count)))
+    goal = " ".join(f"(on b{a} b{b})" for a, b in itertools.pairwise(order))
     problem = (
         f"(define (problem p) (:domain d) (:objects {blocks}) "
         f"(:init (empty) (clear b0) (tab b{count - 1}) {start}) (:goal (and {goal})))"
