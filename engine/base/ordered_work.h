@@ -18,7 +18,7 @@ namespace stampede {
 
 struct Crew {
   int workers = 1;
-  const std::atomic<bool>* stop = nullptr;  // set: all of them end early
+  const std::atomic<bool>* stop = nullptr;  // set: all of them end early. None: this thread's, and then it throws
 };
 
 // For i = 0 … count-1: take(i, make(worker, i)), take in this order and one at a time, make in as many threads as the
@@ -80,6 +80,7 @@ void in_order(std::size_t count, const Crew& crew, const Start& start, const Mak
   loop();
   for (std::thread& thread : threads) thread.join();
   if (first) std::rethrow_exception(first);
+  if (!crew.stop && turn < count) heed_stop();  // the caller counts on all of them
 }
 
 }  // namespace stampede

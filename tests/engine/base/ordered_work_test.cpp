@@ -73,6 +73,26 @@ TEST_CASE("of two that throw the first in order comes out, though the other was 
   }
 }
 
+TEST_CASE("the stop of the thread that calls reaches all of the crew, and is thrown") {
+  std::atomic<bool> stop = false;
+  const StopScope scope(&stop);
+  std::size_t taken = 0;
+  const auto run = [&] {
+    in_order(
+        20, {3}, [] { return 0; },
+        [](int, std::size_t i) {
+          heed_stop();
+          return i;
+        },
+        [&](std::size_t i, std::size_t) {
+          ++taken;
+          stop = i == 4;
+        });
+  };
+  CHECK_THROWS_AS(run(), Interrupted);
+  CHECK(taken == 5);
+}
+
 TEST_CASE("a stop ends it between two results, and nothing is taken after it") {
   std::atomic<bool> stop = false;
   std::vector<std::size_t> taken;
