@@ -13,6 +13,7 @@ from test_recordings import refused, run, table
 import stampede
 from stampede.export import export
 from stampede.recordings import convert
+from stampede.recordings.folder import FolderWriter
 
 
 @pytest.fixture(scope="module")
@@ -74,6 +75,16 @@ def test_lerobot_of_two_versions_and_episodes(demos: Path, tmp_path: Path) -> No
     with pytest.raises(stampede.Error, match="film"):
         convert(["lerobot", str(tmp_path / "3.0"), "--out", str(tmp_path / "q"), "--episodes", "0"])
     assert not (tmp_path / "q").exists()
+
+
+def test_a_recording_without_labels_names_no_file_of_them(tmp_path: Path) -> None:
+    for language in ([], [{"level": "task", "text": "lift it"}]):
+        with FolderWriter(tmp_path / f"{len(language)}") as folder:
+            document: dict[str, object] = {}
+            folder.write_labels(document, {"labelled_by": "person", "segments": [], "language": language})
+            folder.finish(document)
+        described = json.loads((tmp_path / f"{len(language)}" / "recording.json").read_text())
+        assert ("labels" in described) == (tmp_path / f"{len(language)}" / "labels.json").exists() == bool(language)
 
 
 def test_other_arms_in_lerobot_and_robomimic(tmp_path: Path) -> None:

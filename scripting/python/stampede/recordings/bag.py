@@ -241,8 +241,7 @@ class _Conversion:
             joints = next(one for one in self._folder.streams if one.described["kind"] == "joints")
             segments = self._given.fit(self._segments, about, joints.counts.duration_s)
             labels = {"labelled_by": "model", "model": "stampede", "segments": segments, "language": language}
-            self._folder.write_json("labels.json", labels)
-            document["labels"] = "labels.json"
+            self._folder.write_labels(document, labels)
         self._write_cameras(document)
         self._given.copy_files(self._folder)
         self._folder.finish(document)

@@ -151,6 +151,12 @@ class FolderWriter:
     def write_json(self, name: str, document: Any) -> None:
         (self._made / name).write_text(json.dumps(document, indent=1) + "\n")
 
+    def write_labels(self, document: Json, labels: Json) -> None:
+        """Of the episode, named in its document; nothing where there are none."""
+        if labels.get("segments") or labels.get("language"):
+            self.write_json("labels.json", labels)
+            document["labels"] = "labels.json"
+
     def copy(self, source: Path, name: str) -> None:
         shutil.copyfile(source, self._made / name)
 

@@ -130,11 +130,10 @@ def write_pictures(
 
 
 def finish(folder: FolderWriter, given: Given, rows: Rows, about: Json, source: str) -> None:
-    if rows.labels:
-        last_s = (rows.stamps_ns[-1] - rows.stamps_ns[0]) / 1e9
-        segments = given.fit(rows.labels.get("segments", []), about, last_s)
-        folder.write_json("labels.json", {**rows.labels, "segments": segments})
-    document = given.document(about, source=source, **({"labels": "labels.json"} if rows.labels else {}))
+    document = given.document(about, source=source)
+    last_s = (rows.stamps_ns[-1] - rows.stamps_ns[0]) / 1e9
+    segments = given.fit(rows.labels.get("segments", []), about, last_s)
+    folder.write_labels(document, {**rows.labels, "segments": segments})
     given.copy_cameras(folder, document)
     given.copy_files(folder)
     folder.finish(document)
