@@ -1,7 +1,7 @@
 // Whether somebody asked for an end: what runs long looks, however deep it lies.
 #pragma once
 
-#include "stampede/stopping.h"
+#include "stampede/basics.h"
 
 namespace stampede {
 

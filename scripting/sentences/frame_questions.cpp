@@ -12,6 +12,18 @@
 namespace stampede {
 namespace {
 
+// Of an English noun that is regular, or goes as `knife` and `shelf` do.
+std::string plural_of(const std::string& noun) {
+  const auto ends = [&](std::string_view end) { return noun.ends_with(end); };
+  const auto without = [&](std::size_t count) { return noun.substr(0, noun.size() - count); };
+  if (ends("ife")) return without(2) + "ves";
+  if (ends("lf")) return without(1) + "ves";
+  if (ends("y") && noun.size() > 1 && std::string_view("aeiou").find(noun[noun.size() - 2]) == std::string_view::npos)
+    return without(1) + "ies";
+  const bool hisses = ends("s") || ends("x") || ends("z") || ends("ch") || ends("sh");
+  return noun + (hisses ? "es" : "s");
+}
+
 constexpr double kAside = 0.05;  // of the distance: by so much one is left of the other, to be asked about
 
 // `the {obj} is on the {below}`: is it true that the {a} is on the {b}?
@@ -174,7 +186,7 @@ class QuestionMaker {
       }
       for (const auto& [colour, count] : colours) {
         FrameQuestion& question = add("count", "how many {a} are there?", std::to_string(count), "number", "");
-        question.slots["a"] = spaced_name(colour) + " " + name + "s";
+        question.slots["a"] = spaced_name(colour) + " " + plural_of(name);
         for (const Object* object : objects) {
           const auto own = object->attributes.find("colour");
           if (own == object->attributes.end() || own->second != colour) continue;

@@ -23,7 +23,8 @@ Messages = dict[str, list[Any]]
 def episode(tmp_path_factory: pytest.TempPathFactory) -> stampede.StoredEpisode:
     path = tmp_path_factory.mktemp("mcap") / "demos.db"
     session = stampede.Session(catalogue=path)
-    assert session.run_all(["close_drawer"], episodes=1, seed=3).succeeded == 1
+    pictures = {"cameras": ["front"], "depth": False, "mask": False, "semantic_mask": False}
+    assert session.run_all(["close_drawer"], episodes=1, seed=3, pictures=pictures).succeeded == 1
     return stampede.Catalogue(path)[1]
 
 
@@ -134,3 +135,15 @@ def test_joints_actions_and_what_is_not_known(episode: stampede.StoredEpisode, m
     skill = next(one for one in episode.segments if one.kind == "skill")
     told = next(one for one in messages["/segments"] if one["kind"] == "skill")
     assert told["end_s"] == skill.end_frame / episode.frame_hz and told["success"] is True
+
+
+def test_calibrations_count_pixels_as_ros_does(episode: stampede.StoredEpisode, messages: Messages) -> None:
+    cameras = episode.catalogue.query("SELECT camera, width, height, centre_x, centre_y FROM cameras")
+    for name, width, height, x, y in zip(*cameras.to_dict().values(), strict=True):
+        if name != "front":
+            continue
+        lens = messages["/camera/front/calibration"][0]
+        assert (lens["width"], lens["height"]) == (width, height)
+        assert (lens["K"][2], lens["K"][5]) == (x - 0.5, y - 0.5)  # 0 is the middle of the first pixel
+        return
+    raise AssertionError("there is no camera")

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "stampede/visibility.h"
+#include "stampede/basics.h"
 
 namespace stampede {
 

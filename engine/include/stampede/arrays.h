@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "stampede/action.h"
+#include "stampede/basics.h"
 #include "stampede/picture.h"
-#include "stampede/visibility.h"
 #include "stampede/world_state.h"
 
 namespace stampede {

@@ -22,10 +22,9 @@
 #include <vector>
 
 #include "stampede/action.h"
+#include "stampede/basics.h"
 #include "stampede/episode.h"
 #include "stampede/error.h"
-#include "stampede/own.h"
-#include "stampede/visibility.h"
 #include "stampede/world_state.h"
 
 namespace stampede {

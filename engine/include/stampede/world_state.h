@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "stampede/visibility.h"
+#include "stampede/basics.h"
 
 namespace stampede {
 

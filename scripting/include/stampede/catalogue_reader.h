@@ -15,10 +15,9 @@
 #include <vector>
 
 #include "stampede/arrays.h"
+#include "stampede/basics.h"
 #include "stampede/error.h"
-#include "stampede/own.h"
 #include "stampede/rows.h"
-#include "stampede/visibility.h"
 #include "stampede/world_state.h"
 
 namespace stampede {

@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "stampede/arrays.h"
+#include "stampede/basics.h"
 #include "stampede/environment.h"
 #include "stampede/episode.h"
 #include "stampede/error.h"
 #include "stampede/evaluation.h"
-#include "stampede/own.h"
 #include "stampede/picture.h"
 #include "stampede/rows.h"
-#include "stampede/visibility.h"
 #include "stampede/world_state.h"
 
 namespace stampede {

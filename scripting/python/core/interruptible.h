@@ -1,7 +1,7 @@
 // Long work that Ctrl-C ends.
 #pragma once
 
-#include <stampede/stopping.h>
+#include <stampede/basics.h>
 
 #include <atomic>
 #include <chrono>

@@ -90,6 +90,21 @@ TEST_CASE("what a skill is said to have changed came true or ended while it ran"
   CHECK(asked > 0);
 }
 
+TEST_CASE("things are counted in English") {
+  const EpisodeJob job{"reach_and_drag", shipped::library()->task("reach_and_drag")->variation_texts.front(), 3};
+  PreparedEpisode prepared(shipped::library(), job, {});
+  const EpisodeRecord record = prepared.run(nullptr);
+  const Scene scene = scene_from_document(record.scene.document);
+  int patches = 0;
+  for (const FrameQuestion& one : questions_about(record, shipped::library()->domain_of(job.task), scene, 0)) {
+    if (one.type == "count" && one.slots.at("a").find("patch") != std::string::npos) {
+      ++patches;
+      CHECK(one.slots.at("a").ends_with(" patches"));
+    }
+  }
+  CHECK(patches > 0);
+}
+
 TEST_CASE("what is said to be left of another is so in the picture") {
   const EpisodeJob job{"stack_blocks", shipped::library()->task("stack_blocks")->variation_texts.front(), 3};
   PreparedEpisode prepared(shipped::library(), job, {});

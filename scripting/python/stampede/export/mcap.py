@@ -288,7 +288,8 @@ class _EpisodeFile:
             self._write_calibration(camera, time_ns, lens)
 
     def _write_calibration(self, camera: str, time_ns: int, lens: Message) -> None:
-        fx, fy, cx, cy = (lens[name] for name in ("focal_x", "focal_y", "centre_x", "centre_y"))
+        fx, fy = lens["focal_x"], lens["focal_y"]
+        cx, cy = lens["centre_x"] - 0.5, lens["centre_y"] - 0.5  # ROS counts from the middle of the first pixel
         calibration = {
             "timestamp": _stamp(time_ns),
             "frame_id": camera,
