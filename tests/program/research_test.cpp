@@ -171,21 +171,21 @@ std::string hash_of_all(const ResearchProblem& problem) {
 
 std::map<std::string, std::string> known_hashes() {
   return {
-      {"abstractions", "4cadbf4824ee6cf71fb5d5c0083697aa"},
-      {"inventions", "a2f92018621627f5af2a3977c18abb2d"},
-      {"symbols", "ad0ef09ebfbea8a553ff0de48dc1af89"},
-      {"concepts", "5ba39d0bbad41aa093b87589edecb0df"},
-      {"segments_supervised", "f292ec0bb6dca61408f8dcf2c24e2f98"},
-      {"segments", "33d7c86fc9eb9bcf6bed042217efb497"},
-      {"conditions_supervised", "de46a3a776d0e9348f1fdd53586078bc"},
-      {"conditions", "22ca0d95bd873f22f2861748c76a26bc"},
-      {"segments_and_conditions", "58c006065fa9ba9eb4237fde8d16ade7"},
-      {"motions", "dd132b365eb5332678c6c593007ae2bc"},
-      {"behaviour", "242a8d906cbf07ada8b4c48f314c1acc"},
-      {"controllers", "5f441d2e9597af11074708bcddc4970c"},
-      {"transfer", "026e01c97a68a658754e96e9e7274e7d"},
-      {"rewards", "485365e703e4a8e25d0e9f1b95b14c35"},
-      {"transition_models", "c50fa17eeb0e32c3e3a1786d58e1096c"},
+      {"abstractions", "6a12dff3b80f4a62f083d6b55a749295"},
+      {"inventions", "4d5fca84dd71607850ee3bbf74ad6b14"},
+      {"symbols", "c99fb549536e992c2144767df3f3af0a"},
+      {"concepts", "4b9fa9f89e582eae85f720d2657ba69a"},
+      {"segments_supervised", "fdc41a2b274ad009da83c635c68ed5dd"},
+      {"segments", "8a116cfcf8188f1c87a89b80b56a83ab"},
+      {"conditions_supervised", "aa30caf75de4434c75ba8dc03c73594a"},
+      {"conditions", "d3eef0e1ac4a0df036a1502f5a5cc56d"},
+      {"segments_and_conditions", "ccf45edda709ed51258e32d12e471b5b"},
+      {"motions", "35a18f5391d51c3bdb9220fbe1cac937"},
+      {"behaviour", "bf4cf148305769081803708d0ff27d7d"},
+      {"controllers", "ea7ce661f62933bd32ac2283a628deb1"},
+      {"transfer", "45d81a6d84ac03d74b06efcff124cdbd"},
+      {"rewards", "adb891f0539584f2265bde6c31fa2c2c"},
+      {"transition_models", "c30d51760cb86daf35ba768aa9ab9705"},
   };
 }
 

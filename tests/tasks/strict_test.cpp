@@ -193,11 +193,3 @@ TEST_CASE("a pick that counts leaves what stands beside where it stood") {
     }
   CHECK(picks > 6);
 }
-
-TEST_CASE("a chess board is none in a mirror: with a8 ahead of a1, h1 is to the right") {
-  const EpisodeRecord episode = done("setup_chess");
-  const auto square = [&](const std::string& name) -> Vector3 {
-    return pose(episode, 0, "board." + name).translation();
-  };
-  CHECK((square("h1") - square("a1")).cross(square("a8") - square("a1")).z() > 0);
-}

@@ -2,8 +2,8 @@
 local boards = {}
 boards.pitch, boards.high = 0.042, 0.014 -- m: of a square; of the board
 
--- From the middle of the board to that of a square; file and rank 1 … 8. White sits at -x: a1, which is dark, to the left.
-function boards.square(file, rank) return (rank - 4.5) * boards.pitch, (4.5 - file) * boards.pitch end
+-- From the middle of the board to that of a square; file and rank 1 … 8.
+function boards.square(file, rank) return (rank - 4.5) * boards.pitch, (file - 4.5) * boards.pitch end
 
 -- The shapes of a board: a frame and its dark squares.
 function boards.shapes(light, dark)
