@@ -1,7 +1,6 @@
 #include "engine/episode/acting.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "engine/base/error.h"

@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <mutex>
 #include <numbers>
 #include <set>
-#include <sstream>
 
 #include "engine/base/error.h"
 #include "engine/base/text_file.h"
